@@ -54,7 +54,7 @@ def proofs() -> None:
     from optimizer.program.kernel.disc_forms import pairs
     from optimizer.program.limits import Limits, within
     from optimizer.program.methods.compensation import near_limits
-    from optimizer.program.methods.rounding import settled
+    from optimizer.program.methods.rounding import snap_to_limits
     from optimizer.program.norms import Norms
     from optimizer.program.points import points_at
     from optimizer.program.scaling import least_change
@@ -69,7 +69,7 @@ def proofs() -> None:
     near_limits(limits, np.ones((1, 1, 1)), np.ones((1, 1), complex), 0.0, 0.0)
     within(limits.region((1,)), (1,), np.ones((1, 1), complex))
     least_change(np.ones((1, 1, 1), complex), np.ones((1, 1), complex), 1)
-    settled(program.alone(), points_at(program.alone(), np.zeros((1, 1), complex)), unit, None)
+    snap_to_limits(program.alone(), points_at(program.alone(), np.zeros((1, 1), complex)), unit, None)
     pairs(np.ones((1, 3, 1)), np.zeros(3, int), np.empty((1, 3)), np.empty((1, 2, 1)), np.empty(1, bool))
 
 

@@ -66,13 +66,13 @@ class CastingsBeside:
         order = np.concatenate([np.flatnonzero(self.castings), np.flatnonzero(free)])
         below = subproblem.below
         selection, free_unbalance, result = search(
-            subproblem.statement.ordered(order),
+            subproblem.statement.permutation(order),
             options,
             beside,
             subproblem.points[:, order],
             subproblem.at_least,
             goal,
-            None if below is None else below.ordered(order),
+            None if below is None else below.permutation(order),
         )
         u = np.zeros(limits.radius.shape, complex)
         u[order] = np.concatenate([options.carried(selection), free_unbalance])

@@ -12,7 +12,7 @@ from optimizer.program.certificate import Multipliers, nothing_proven
 from optimizer.program.equal_castings import Alike
 from optimizer.program.equal_unknowns import apart, united
 from optimizer.program.methods.cascade import cascade
-from optimizer.program.methods.compiled import both_stages, suits_kernel
+from optimizer.program.methods.compiled import stage_solutions, suits_kernel
 from optimizer.program.methods.single import Target, interior_point
 from optimizer.program.statement import Statement
 
@@ -42,7 +42,7 @@ def solved(
     nowhere = np.zeros(gap.shape, bool)
     whole = program if alike is None else united(program, alike) if alike.plain else None
     if whole is not None and suits_kernel(whole):
-        result = both_stages(whole, share, gap, least_mass)
+        result = stage_solutions(whole, share, gap, least_mass)
         u = result.unbalance if least_mass else result.smallest
         return Relaxations(np.nan_to_num(u if alike is None else apart(u, alike)), result.multipliers, nowhere)
     points, multipliers = np.zeros(program.limits.radius.shape, complex), nothing_proven(program)

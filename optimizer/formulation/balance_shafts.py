@@ -49,7 +49,7 @@ def _mirrored(web: Web) -> Web:
     return web if web.sector is None else with_fields(web, {("sector", "centre_deg"): -web.sector.centre_deg})
 
 
-def as_drawn(machine: Machine) -> Machine:
+def with_shaft_webs(machine: Machine) -> Machine:
     """A machine with the webs of its balance shafts behind its own, none of them mirrored."""
     return with_fields(machine, {("webs",): machine.every_web}) if balance_shafts(machine) else machine
 
@@ -79,7 +79,7 @@ class Fitted(NamedTuple):
         return self.total_mass_kg + sum(shaft.total_mass_kg for shaft in self.balance_shafts)
 
     @property
-    def all_of_them(self) -> tuple[Counterweight, ...]:
+    def every_weight(self) -> tuple[Counterweight, ...]:
         """Those on the balance shafts behind those of the crankshaft."""
         return every_counterweight(self)
 
@@ -87,7 +87,7 @@ class Fitted(NamedTuple):
         self, of_machine: tuple[MachineLimit, ...]
     ) -> dict[str | None, tuple[WebLimit | MachineLimit, ...]]:
         """Limits that are touched on each web, and by None those of the machine."""
-        return {None: of_machine} | {weight.web: weight.active_limits for weight in self.all_of_them}
+        return {None: of_machine} | {weight.web: weight.active_limits for weight in self.every_weight}
 
     @property
     def fields(self) -> dict[str, object]:
@@ -101,7 +101,7 @@ class Fitted(NamedTuple):
         }
 
 
-def chosen(
+def placement_of(
     machine: Machine, objective: Objective, mass_kg: Real, angle_deg: Real, vectors: Complex | None = None
 ) -> Fitted:
     """What a program has chosen, shaft by shaft, beside the weights that are fixed.
@@ -113,10 +113,10 @@ def chosen(
     """
     if not balance_shafts(machine) and not any_fixed(machine):
         return fitted(machine, mass_kg, angle_deg, vectors)
-    return fitted(machine, *drawn(machine, objective, mass_kg, angle_deg))
+    return fitted(machine, *in_drawing(machine, objective, mass_kg, angle_deg))
 
 
-def drawn(machine: Machine, objective: Objective, mass_kg: Real, angle_deg: Real) -> tuple[Real, Real]:
+def in_drawing(machine: Machine, objective: Objective, mass_kg: Real, angle_deg: Real) -> tuple[Real, Real]:
     """Masses [kg] and angles [deg] of all webs (..., K + S) as they are drawn, with the fixed weights in their places.
 
     Parameters
@@ -130,7 +130,7 @@ def drawn(machine: Machine, objective: Objective, mass_kg: Real, angle_deg: Real
     return mass_kg, np.mod(angle, 360.0)
 
 
-def posed(machine: Machine, objective: Objective, unbalance: Complex) -> Complex:
+def in_program(machine: Machine, objective: Objective, unbalance: Complex) -> Complex:
     """What a program has for unbalances of all webs (..., K + S) kg m as they are drawn."""
     if not balance_shafts(machine):
         return unbalance

@@ -47,8 +47,8 @@ def _within(machine: Machine, unbalance: Complex, limits: Limits) -> tuple[Real,
         mass = np.where(full, limits.max_mass, mass)
     free, centre, half_angle = sectors(machine)
     if all_free(free):
-        some = mass > 0
-        return mass, angle if all_true(some) else np.where(some, angle, 0.0)
+        has_mass = mass > 0
+        return mass, angle if all_true(has_mass) else np.where(has_mass, angle, 0.0)
     # reduced first, without which the edge of a sector at 1e6 degrees would be rounded to 1e-10
     centre = np.mod(centre, 360.0)
     off = _in_a_turn(angle - centre + 180.0) - 180.0

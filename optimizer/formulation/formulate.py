@@ -21,7 +21,7 @@ from optimizer.responses.curve import TurnResponse
 from optimizer.responses.response import Response
 from schemas.base.responses import PAIR, CeilingFields, ResponseFields
 from schemas.base.responses import RESPONSES as FIELDS
-from schemas.base.responses import counted as fields_that_count
+from schemas.base.responses import active_responses as fields_that_count
 from schemas.base.responses import limited as limited_fields
 from schemas.base.rules import Path
 from schemas.base.variation import with_fields
@@ -81,16 +81,16 @@ SHARES: dict[str, Callable[[Layout, Objective], Shares]] = {
 RESPONSES: dict[str, Weighable] = {name: Weighable(fields, SHARES[name]) for name, fields in FIELDS.items()}
 
 
-def counted(objective: Objective) -> tuple[Weighable, ...]:
+def active_responses(objective: Objective) -> tuple[Weighable, ...]:
     """Force and moment, and of the others those that an objective weighs or limits."""
     return tuple(RESPONSES[field.name] for field in fields_that_count(objective))
 
 
-def added(objective: Objective) -> tuple[Weighable, ...]:
+def extra_responses(objective: Objective) -> tuple[Weighable, ...]:
     """Those that count beside force and moment."""
     if len(RESPONSES) == len(PAIR):
         return ()
-    return tuple(response for response in counted(objective) if response.name not in PAIR)
+    return tuple(response for response in active_responses(objective) if response.name not in PAIR)
 
 
 def responses(layout: Layout, baseline: Wrench, objective: Objective) -> tuple[Response, ...]:
@@ -103,14 +103,16 @@ def responses(layout: Layout, baseline: Wrench, objective: Objective) -> tuple[R
     force, moment = first_order_responses(layout, baseline)
     return tuple(
         first_order(response.name, response.unit, response.shares(layout, objective), force, moment)
-        for response in counted(objective)
+        for response in active_responses(objective)
     )
 
 
 def of_all_orders(turn: WholeTurn, layout: Layout, objective: Objective) -> tuple[TurnResponse, ...]:
     """The same of all orders, of one machine."""
-    named = {response.name: (response.unit, response.shares(layout, objective)) for response in counted(objective)}
-    return shaking(turn, layout, named)
+    units = {
+        response.name: (response.unit, response.shares(layout, objective)) for response in active_responses(objective)
+    }
+    return shaking(turn, layout, units)
 
 
 def weights(machine: Machine, objective: Objective) -> Mapping[str, Reals]:
@@ -127,8 +129,8 @@ def with_weights_of(machine: Machine, objective: Objective) -> Objective:
 
 def weighing(objective: Objective, weights: Mapping[str, float], **update: object) -> Objective:
     """The objective that weighs these responses on the frame and no others."""
-    wanted = {response.fields.weight: weights.get(response.name, 0.0) for response in RESPONSES.values()}
-    return objective.model_copy(update=wanted | update)
+    weight_fields = {response.fields.weight: weights.get(response.name, 0.0) for response in RESPONSES.values()}
+    return objective.model_copy(update=weight_fields | update)
 
 
 def objective_ceilings(objective: Objective) -> list[tuple[CeilingFields, float]]:

@@ -120,15 +120,17 @@ def formulate(
         if specific loads are asked for and a bearing has no diameter or length.
     """
     quantities: list[Quantity] = []
-    wanted = weights(machine, objective)
-    case_quantities = [_CaseQuantities(case, objective, fidelity, wanted, omega_squared, quantities) for case in cases]
+    response_weights = weights(machine, objective)
+    case_quantities = [
+        _CaseQuantities(case, objective, fidelity, response_weights, omega_squared, quantities) for case in cases
+    ]
     groups: dict[str, list[tuple[Group, ...]]] = {"external": [entry.external(apart) for entry in case_quantities]}
     if objective.bearing_weight > 0:
         groups["bearings"] = [(entry.weighed_bearings(),) for entry in case_quantities]
     if objective.bending_weight > 0:
         groups["bending"] = [(entry.weighed_bending(),) for entry in case_quantities]
     limited = tuple(ceiling for entry in case_quantities for ceiling in entry.limited())
-    chosen = _in_order(objective, groups)
+    order = _in_order(objective, groups)
     # of all orders the ceilings are among what is limited over the turn
     stated = objective.orders == "first" and objective_ceilings(objective)
     exact = tuple(
@@ -141,7 +143,7 @@ def formulate(
     )
     capped = tuple((entry.quantity, entry.ceiling / entry.omega_squared) for entry in limited)
     cut, most = plates(machine), limits(closed(machine), np.shape(omega_squared))
-    program = Problem(tuple(quantities), chosen, exact, capped, most, scatter, cut, objective.symmetric)
+    program = Problem(tuple(quantities), order, exact, capped, most, scatter, cut, objective.symmetric)
     return Goals(program, limited, tuple(cases))
 
 
@@ -175,7 +177,7 @@ class _CaseQuantities:
         case: Case,
         objective: Objective,
         fidelity: Fidelity,
-        wanted: Mapping[str, Reals],
+        response_weights: Mapping[str, Reals],
         omega_squared: Reals,
         quantities: list[Quantity],
     ) -> None:
@@ -183,13 +185,13 @@ class _CaseQuantities:
 
         Parameters
         ----------
-        wanted : weights of the responses of the first order.
+        response_weights : weights of the responses of the first order.
         omega_squared : what the program is divided by.
         quantities : of all cases, to which those of this one are added.
         """
         self.objective, self.fidelity, self.case, self.quantities = objective, fidelity, case, quantities
         self._speed = case.omega_squared / omega_squared
-        self._wanted = {name: weight * self._speed * case.weight for name, weight in wanted.items()}
+        self._response_weights = {name: weight * self._speed * case.weight for name, weight in response_weights.items()}
         self._places: dict[str, range] = {}
 
     @property
@@ -214,18 +216,22 @@ class _CaseQuantities:
         if self.objective.roll_weight > 0:
             weight = self.objective.roll_weight * self._factor
             groups = (*groups, Group(weighed=tuple(Weighed(q, weight) for q in self._of_roll())))
-        return (_merged(groups),) if self.objective.combine == "max" and len(groups) > 1 else groups
+        return (_union(groups),) if self.objective.combine == "max" and len(groups) > 1 else groups
 
     def _of_frame(self, apart: bool) -> tuple[Group, ...]:
-        wanted, across = self._wanted, self.objective.direction_weights
+        response_weights, across = self._response_weights, self.objective.direction_weights
         # of many programs of one shape all weigh it, or none
-        weighs = [name for name, weight in wanted.items() if _all_positive(weight)]
+        weighs = [name for name, weight in response_weights.items() if _all_positive(weight)]
         if self.objective.orders == "all":
             places = [(self.quantities[q].response.name, q) for q in self._of_shaking()]
-            weighed = [Weighed(q, float(wanted[name])) for name, q in places if name in weighs]
+            weighed = [Weighed(q, float(response_weights[name])) for name, q in places if name in weighs]
             return tuple(Group(weighed=(entry,)) for entry in weighed)
         variants = [
-            [weighted_peak(entry, wanted[entry.name], across.x, across.y) for entry in of if entry.name in weighs]
+            [
+                weighted_peak(entry, response_weights[entry.name], across.x, across.y)
+                for entry in of
+                if entry.name in weighs
+            ]
             for of in self.case.variants
         ]
         if not variants[0]:
@@ -339,12 +345,12 @@ def _largest(name: str, cases: Sequence[tuple[Group, ...]]) -> Goal:
     if len(cases) == 1:
         return Goal(name, cases[0])
     if all(len(case) == 1 for case in cases):
-        return Goal(name, (_merged([group for case in cases for group in case]),))
+        return Goal(name, (_union([group for case in cases for group in case]),))
     flat = tuple(group for case in cases for group in case)
     return Goal(name, flat, cases=tuple(n for n, case in enumerate(cases) for _ in case))
 
 
-def _merged(groups: Sequence[Group]) -> Group:
+def _union(groups: Sequence[Group]) -> Group:
     """The largest of several groups."""
     rows = tuple(row for group in groups for row in group.rows)
     return Group(rows, tuple(member for group in groups for member in group.weighed))
@@ -367,7 +373,7 @@ def _in_order(objective: Objective, groups: dict[str, list[tuple[Group, ...]]]) 
     every = [tuple(group for part in of_case for group in part) for of_case in zip(*groups.values(), strict=True)]
     # several goals in their order are never combined: their quantities are of one kind
     if objective.combine == "max":
-        every = [(_merged(entry),) for entry in every]
+        every = [(_union(entry),) for entry in every]
     return (_largest("all", every),)
 
 

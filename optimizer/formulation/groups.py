@@ -69,8 +69,8 @@ def _problems(machine: Machine, cranks: Sequence[float | None], i: int, group: S
                 [] if own is None else kind.options(own) for own in (getattr(first, name), getattr(web, name))
             )
             if not _same_options(options, at or 0.0, other, cranks[k] or 0.0, mirrored):
-                counted = any(angle is not None for _, angle in (*options, *other))
-                unlike.append(f"{name}, counted from the own crank," if counted else name)
+                from_crank = any(angle is not None for _, angle in (*options, *other))
+                unlike.append(f"{name}, counted from the own crank," if from_crank else name)
         if unlike:
             words = " and ".join(unlike)
             yield FieldProblem(path, f"webs of a group are equal castings: its {words} must equal that of {first.name}")

@@ -10,7 +10,7 @@ import numpy as np
 
 from optimizer.effects.inertia import FIRST_ORDER_EFFECTS, second_order
 from optimizer.effects.registry import Simulated, closure, simulate
-from optimizer.formulation.formulate import added, responses
+from optimizer.formulation.formulate import extra_responses, responses
 from optimizer.mechanics.balance_shafts import of_balance_shafts
 from optimizer.mechanics.cylinders import cycle_turns
 from optimizer.mechanics.fixed_weights import laden
@@ -185,10 +185,11 @@ class Prepared:
         return roll(self.results["whole_turn"], self.layout)
 
     @cached_property
-    def added(self) -> tuple[tuple[ResponseFields, Shares], ...]:
+    def extra_responses(self) -> tuple[tuple[ResponseFields, Shares], ...]:
         """Responses that count beside force and moment, with what they have of both."""
         return tuple(
-            (response.fields, response.shares(self.layout, self.objective)) for response in added(self.objective)
+            (response.fields, response.shares(self.layout, self.objective))
+            for response in extra_responses(self.objective)
         )
 
     @property

@@ -68,7 +68,7 @@ def response_peaks(scene: Prepared, wrench: Wrench) -> tuple[ResponsePeak, ...]:
         ResponsePeak(
             response=fields.name, label=fields.label, unit=fields.unit, peak=float(phasors(shares, wrench).peak)
         )
-        for fields, shares in scene.added
+        for fields, shares in scene.extra_responses
     )
 
 
@@ -84,7 +84,7 @@ def _columns(scene: Prepared, unbalance: Complex) -> dict[str, Real]:
 
 def _changes(scene: Prepared, wrenches: Sequence[Wrench]) -> tuple[ResponseChange, ...]:
     """The same before and after; the latter is missing where there are no counterweights to show."""
-    if not scene.added:
+    if not scene.extra_responses:
         return ()
     before, *after = (response_peaks(scene, wrench) for wrench in wrenches)
     return tuple(

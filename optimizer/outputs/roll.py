@@ -26,7 +26,7 @@ def _figure(scene: Prepared, unbalance: Complex | None) -> Roll:
     fitted = None if unbalance is None or scene.shafts is None else np.concatenate([unbalance, scene.shafts])
     if fitted is not None:
         # what turns with the crankshaft has no lever: of all counterweights only those of balance shafts count
-        moment = bare + np.asarray(scene.roll.added(fitted, angle)).real * square
+        moment = bare + np.asarray(scene.roll.contribution(fitted, angle)).real * square
         at, value, lower, upper = peaks([scene.roll], fitted, TOLERANCE)
         scene.peaks.add({_FITTED: slice(None)}, Bracket(at, value, lower * square, upper * square))
         after = _moment(scene, moment, scene.peaks.plain(_FITTED))

@@ -35,7 +35,7 @@ class Ceilings:
         return (self.norms.sizes(u) - self.cap) / self.size
 
     @property
-    def counted(self) -> Real:
+    def tolerant_cap(self) -> Real:
         """Caps up to which they count as kept (..., I)."""
         return self.cap + self.tolerance * self.size
 

@@ -105,8 +105,8 @@ def best_proof(statement: Statement, proofs: Iterable[Multipliers]) -> tuple[Rea
     best = np.where(np.isnan(bound), -np.inf, bound).argmax(axis=0)
     if not np.count_nonzero(best):
         return bound[0], candidates[0]
-    taken = (best, *np.indices(best.shape))
-    return bound[taken], every.subset(taken)
+    place = (best, *np.indices(best.shape))
+    return bound[place], every.subset(place)
 
 
 def together(several: Iterable[Multipliers]) -> Multipliers:
@@ -145,7 +145,7 @@ def affine_minorant(statement: Statement, multipliers: Multipliers) -> tuple[Rea
     constant (...) without its rounding, -inf where nothing is proven; slopes (..., K), Re(conj(slope_k) u_k) of the
     unbalances; and what the slopes may be off by (..., K).
     """
-    minorant = _minorants(statement, multipliers, counted=True, normal=True)
+    minorant = _minorants(statement, multipliers, with_tolerance=True, normal=True)
     return minorant.constant, minorant.slope, minorant.rounding
 
 
@@ -169,7 +169,7 @@ def budget_price(statement: Statement, multipliers: Multipliers, mass_cost: floa
     ends = limits.budget_ends
     if not np.count_nonzero(ends):
         return np.zeros(ends.shape)
-    minorant = _minorants(statement, multipliers, counted=False, normal=False)
+    minorant = _minorants(statement, multipliers, with_tolerance=False, normal=False)
     # with the rounding of the slopes, as in the bound: at a lower price a web behind this one would gain something
     # a plate that is opened further adds a kilogram at its edge (section 18)
     _, price = limits.spent(limits.margin * minorant.support - mass_cost)
@@ -209,9 +209,9 @@ def spread(statement: Statement, multipliers: Multipliers) -> Real | float:
     """What a bound rises by, or less, for a kilogram metre on each web because counterweights scatter (..., K)."""
     if not statement.norms.scatter and not statement.ceilings.norms.scatter:
         return 0.0
-    return _minorants(statement, multipliers, counted=False, normal=False).spread
+    return _minorants(statement, multipliers, with_tolerance=False, normal=False).spread
 
 
-def _minorants(statement: Statement, multipliers: Multipliers, counted: bool, normal: bool) -> Minorants:
+def _minorants(statement: Statement, multipliers: Multipliers, with_tolerance: bool, normal: bool) -> Minorants:
     """As :meth:`optimizer.program.compiled_evaluation.Flat.minorants`."""
-    return statement.flat.minorants(*multipliers.parts, counted, normal)
+    return statement.flat.minorants(*multipliers.parts, with_tolerance, normal)

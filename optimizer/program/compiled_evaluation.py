@@ -99,16 +99,16 @@ class Flat:
         leading = self._of(np.broadcast_shapes(row.shape[:-1], () if target is None else target.shape))
         result = np.empty(math.prod(leading))
         most = programs.region.budget if target is None else in_order(spread(target, leading)).reshape(-1)
-        cap = programs.cap if target is None else programs.counted
+        cap = programs.cap if target is None else programs.tolerant_cap
         bounds(0.0 if target is None else 1.0, most, *_rows(leading, term, row, ceiling), programs, cap, result)
         return result.reshape(leading)
 
-    def minorants(self, term: Complex, row: Real, ceiling: Complex, counted: bool, normal: bool) -> Minorants:
+    def minorants(self, term: Complex, row: Real, ceiling: Complex, with_tolerance: bool, normal: bool) -> Minorants:
         """What multipliers prove for all counterweights (..., *leading).
 
         Parameters
         ----------
-        counted : for all that counts as keeping the ceilings.
+        with_tolerance : for all that counts as keeping the ceilings.
         normal : with rows that sum to 1, of the objective itself.
         """
         from optimizer.program.kernel.bounds import minorants
@@ -116,7 +116,7 @@ class Flat:
         programs, leading = self.programs, self._of(row.shape[:-1])
         many, webs = math.prod(leading), programs.influence.shape[-1]
         constant, slope, of_webs = np.empty(many), np.empty((many, webs), complex), np.empty((3, many, webs))
-        cap = programs.counted if counted else programs.cap
+        cap = programs.tolerant_cap if with_tolerance else programs.cap
         minorants(normal, *_rows(leading, term, row, ceiling), programs, cap, constant, slope, of_webs)
         return Minorants(constant.reshape(leading), slope.reshape(*leading, webs), *of_webs.reshape(3, *leading, webs))
 
@@ -263,9 +263,9 @@ def flat(
     ceilings : (..., I) caps, caps up to which they count as kept, and sizes.
     """
     leading = floor.shape[:-1]
-    others = constant.shape[:-1], influence.shape[:-2], limits.radius.shape[:-1]
-    if others != (leading, leading, leading):
-        leading = np.broadcast_shapes(leading, *others)
+    leadings = constant.shape[:-1], influence.shape[:-2], limits.radius.shape[:-1]
+    if leadings != (leading, leading, leading):
+        leading = np.broadcast_shapes(leading, *leadings)
     (terms, webs), rows = influence.shape[-2:], floor.shape[-1]
     of_programs, none = of_programs_of(leading), np.empty((math.prod(leading), terms, 0))
     plain, (numbers, vectors, places) = influence.dtype == float, _work(terms, webs, rows)
@@ -283,7 +283,7 @@ def flat(
             magnitude=none if plain else of_programs(np.abs(influence), 2),
             floor=of_programs(floor, 1),
             cap=cap,
-            counted=of_programs(ceilings[1], 1) if cap.size else cap,
+            tolerant_cap=of_programs(ceilings[1], 1) if cap.size else cap,
             size=of_programs(ceilings[2], 1) if cap.size else cap,
             region=limits.region(leading),
             numbers=numbers,

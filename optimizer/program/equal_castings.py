@@ -71,9 +71,9 @@ class Alike:
         leader = np.array(self.leader, dtype=int)
         mass, angle = mass_kg[..., leader], angle_deg[..., leader]
         # twice, because a hair below 0 comes to 360
-        moved = np.mod(np.mod(np.where(self.mirrored, -angle, angle) + self.ahead_deg, 360.0), 360.0)
+        image = np.mod(np.mod(np.where(self.mirrored, -angle, angle) + self.ahead_deg, 360.0), 360.0)
         own = (leader == np.arange(leader.size)) | (mass == 0.0)
-        return mass, np.where(own, np.where(mass > 0, angle, 0.0), moved)
+        return mass, np.where(own, np.where(mass > 0, angle, 0.0), image)
 
     def only(self, webs: np.ndarray) -> "Alike":
         """Of some of the webs (K,) bool, of a unit all or none."""

@@ -18,9 +18,9 @@ def united(statement: Statement, alike: Alike) -> Statement:
     """
 
     def mean(norms: Norms) -> Norms:
-        turned = alike.summed(norms.influence * alike.turn[..., None, :]) / alike.count
+        influence = alike.summed(norms.influence * alike.turn[..., None, :]) / alike.count
         # cranks in one plane leave it real
-        return replace(norms, influence=turned.real.copy() if not np.any(turned.imag) else turned)
+        return replace(norms, influence=influence.real.copy() if not np.any(influence.imag) else influence)
 
     ceilings = replace(statement.ceilings, norms=mean(statement.ceilings.norms))
     limits = of_units(statement.limits, alike)

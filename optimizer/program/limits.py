@@ -146,7 +146,7 @@ class Limits:
             None if self.marginal_radius is None else function(self.marginal_radius),
         )
 
-    def ordered(self, webs: np.ndarray) -> "Limits":
+    def permutation(self, webs: np.ndarray) -> "Limits":
         """The same with the webs, none of which are alike, in another order (K,)."""
         of_webs: dict[str, Any] = {name: getattr(self, name)[..., webs] for name in OF_WEBS}
         return replace(self, **of_webs)

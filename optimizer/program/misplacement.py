@@ -76,7 +76,7 @@ def farthest_by_angle(fixed: Complex, vectors: Complex, angle: float) -> Real:
     """Largest |fixed + sum_k v_k e^{j psi_k}| (...) of vectors (..., K), |psi_k| up to an angle [rad] below pi/2."""
     worst = np.empty(fixed.size)
     rows = in_order(vectors).reshape(worst.size, vectors.shape[-1])
-    _outlines().worst_turned(rows, in_order(fixed).reshape(-1), angle, worst)
+    _outlines().worst_rotation(rows, in_order(fixed).reshape(-1), angle, worst)
     return worst.reshape(fixed.shape)
 
 

@@ -82,9 +82,9 @@ def _nearest(influence: Real | Complex, multipliers: Complex | Real, worth: Comp
 
 def _nearest_of_scalars(influence: Real | Complex, multipliers: Complex, worth: Complex, free: np.ndarray) -> Complex:
     """The same where multipliers are real: in their real parts and, of those that are ``free`` (n,), the imaginary."""
-    turned = np.concatenate([influence, -1j * influence[free]])
+    rows = np.concatenate([influence, -1j * influence[free]])
     parts = np.concatenate([multipliers.real, multipliers.imag[free]])
-    values = _nearest(np.hstack([turned.real, -turned.imag]), parts, np.concatenate([worth.real, worth.imag]))
+    values = _nearest(np.hstack([rows.real, -rows.imag]), parts, np.concatenate([worth.real, worth.imag]))
     whole: Complex = values[: free.size].astype(complex)
     whole[free] += 1j * values[free.size :]
     return whole

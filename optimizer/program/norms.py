@@ -45,7 +45,7 @@ class Norms:
         return np.where(largest > 0, largest, 1.0)
 
     @property
-    def turned(self) -> bool:
+    def is_complex(self) -> bool:
         """Whether influences are complex: counterweights act out of line with themselves."""
         return self.influence.dtype.kind == "c"
 
@@ -53,7 +53,7 @@ class Norms:
         """A function of every array."""
         return Norms(function(self.constant), function(self.influence), self.scatter, self.scalar)
 
-    def ordered(self, webs: np.ndarray) -> "Norms":
+    def permutation(self, webs: np.ndarray) -> "Norms":
         """The same with the webs in another order (K,)."""
         return replace(self, influence=self.influence[..., webs].copy())
 
@@ -79,6 +79,6 @@ def join(norms: Sequence[Norms]) -> Norms:
         leading = np.broadcast_shapes(*leadings)
         constant = [spread(array, (*leading, array.shape[-1])) for array in constant]
         influence = [spread(array, (*leading, *array.shape[-2:])) for array in influence]
-    joined = influence[0] if len(influence) == 1 else np.concatenate(influence, axis=-2)
+    matrix = influence[0] if len(influence) == 1 else np.concatenate(influence, axis=-2)
     # what is too small to divide by has no influence, as in `total`
-    return Norms(np.concatenate(constant, axis=-1), np.where(np.abs(joined) > SMALLEST, joined, 0.0))
+    return Norms(np.concatenate(constant, axis=-1), np.where(np.abs(matrix) > SMALLEST, matrix, 0.0))

@@ -21,10 +21,10 @@ class Points(NamedTuple):
         """Those of some of the programs."""
         return Points(*(values[programs] for values in self))
 
-    def put(self, programs: np.ndarray, others: "Points") -> None:
+    def put(self, programs: np.ndarray, points: "Points") -> None:
         """Others for some of the programs, in place."""
-        for mine, other in zip(self, others, strict=True):
-            mine[programs] = other
+        for mine, values in zip(self, points, strict=True):
+            mine[programs] = values
 
 
 def points_at(statement: Statement, u: Complex) -> Points:

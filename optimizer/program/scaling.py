@@ -83,8 +83,8 @@ def least_change(influence: Real | Complex, constant: Real | Complex, passes: in
     shape = (math.prod(leading), terms, webs)
     constants = in_order(np.asarray(constant, complex)).reshape(shape[:-1])
     changes = np.zeros((shape[0], webs), complex)
-    loops, turned = _cancelling(), influence.dtype.kind == "c"
-    loop, kind = (loops.least_changes, complex) if turned else (loops.least_changes_of_real, float)
+    loops, is_complex = _cancelling(), influence.dtype.kind == "c"
+    loop, kind = (loops.least_changes, complex) if is_complex else (loops.least_changes_of_real, float)
     row, basis = np.empty(webs, kind), np.empty((terms, webs), kind)
     loop(in_order(influence).reshape(shape), constants, passes, row, basis, changes)
     return changes.reshape(*leading, webs)

@@ -36,7 +36,7 @@ def shadow_prices(
     """
     limits, ceilings = statement.limits, statement.ceilings
     norms = statement.norms
-    influence = np.conj(norms.influence) if norms.turned else norms.influence
+    influence = np.conj(norms.influence) if norms.is_complex else norms.influence
     slope = np.add.reduce(influence * multipliers.term[..., :, None], axis=-2)
     if ceilings.names:
         slope = slope + np.add.reduce(np.conj(ceilings.norms.influence) * multipliers.ceiling[..., :, None], axis=-2)

@@ -70,7 +70,7 @@ class ConeSolution:
             return self
         return replace(self, mass_lower_bound=bound, mass_multipliers=multipliers, mass_target=target)
 
-    def moved_to(self, statement: Statement, u: Complex) -> "ConeSolution":
+    def with_point(self, statement: Statement, u: Complex) -> "ConeSolution":
         """Another point with the bounds that are proven already."""
         return replace(
             self,
@@ -101,14 +101,14 @@ class Solutions:
         """Those of some of the programs."""
         return mapped(self, lambda array: array[programs])
 
-    def put(self: Some, programs: np.ndarray, others: Some) -> None:
+    def put(self: Some, programs: np.ndarray, solutions: Some) -> None:
         """Others for some of the programs, in place."""
         for field in fields(self):
-            value, other = getattr(self, field.name), getattr(others, field.name)
+            value, replacement = getattr(self, field.name), getattr(solutions, field.name)
             if isinstance(value, Multipliers):
-                value.put(programs, other)
+                value.put(programs, replacement)
             else:
-                value[programs] = other
+                value[programs] = replacement
 
 
 def joined(parts: Sequence[Any], order: np.ndarray) -> Any:
@@ -122,4 +122,4 @@ def joined(parts: Sequence[Any], order: np.ndarray) -> Any:
 def evaluated(statement: Statement, u: Complex) -> ConeSolution:
     """What an unbalance amounts to; nothing proven yet."""
     nothing = ConeSolution(u, np.inf, -np.inf, np.inf, 0.0, np.inf, nothing_proven(statement))
-    return nothing.moved_to(statement, u)
+    return nothing.with_point(statement, u)

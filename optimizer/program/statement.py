@@ -108,7 +108,7 @@ class Statement:
             self.every_constant,
             self.every_influence,
             self.floor,
-            (limited.cap, limited.counted if limited.names else limited.cap, limited.size),
+            (limited.cap, limited.tolerant_cap if limited.names else limited.cap, limited.size),
             self.limits,
         )
 
@@ -233,18 +233,18 @@ class Statement:
         """The programs in what is added to points (N, K) kg m, under the same limits; of one program N of them."""
         nodes = points.shape[:-1]
 
-        def spread(array: np.ndarray, last: int) -> np.ndarray:
+        def broadcast(array: np.ndarray, last: int) -> np.ndarray:
             return np.broadcast_to(array, (*nodes, *array.shape[array.ndim - last :]))
 
-        def moved(norms: Norms) -> Norms:
+        def shifted(norms: Norms) -> Norms:
             constant = norms.constant + np.sum(norms.influence * points[..., None, :], axis=-1)
-            return replace(norms, constant=constant, influence=spread(norms.influence, 2))
+            return replace(norms, constant=constant, influence=broadcast(norms.influence, 2))
 
         ceilings = self.ceilings
         ceilings = replace(
-            ceilings, norms=moved(ceilings.norms), cap=spread(ceilings.cap, 1), size=spread(ceilings.size, 1)
+            ceilings, norms=shifted(ceilings.norms), cap=broadcast(ceilings.cap, 1), size=broadcast(ceilings.size, 1)
         )
-        return replace(self, norms=moved(self.norms), floor=spread(self.floor, 1), ceilings=ceilings)
+        return replace(self, norms=shifted(self.norms), floor=broadcast(self.floor, 1), ceilings=ceilings)
 
     def alone(self) -> "Statement":
         """One program as the only one of a leading axis (1,)."""
@@ -278,11 +278,11 @@ class Statement:
             self, norms=self.norms.only(webs), ceilings=self.ceilings.only(webs), limits=self.limits.only(webs)
         )
 
-    def ordered(self, webs: np.ndarray) -> "Statement":
+    def permutation(self, webs: np.ndarray) -> "Statement":
         """The program with its webs in another order (K,), none of them alike."""
         limits = replace(self.limits, alike=None)
-        ceilings = replace(self.ceilings, norms=self.ceilings.norms.ordered(webs))
-        return replace(self, norms=self.norms.ordered(webs), ceilings=ceilings, limits=limits.ordered(webs))
+        ceilings = replace(self.ceilings, norms=self.ceilings.norms.permutation(webs))
+        return replace(self, norms=self.norms.permutation(webs), ceilings=ceilings, limits=limits.permutation(webs))
 
     def _mapped(self, function: Callable[[Any], Any]) -> "Statement":
         """A function of every array that has the leading axes."""

@@ -115,8 +115,8 @@ def _allowance(statement: Statement, u: Complex, multipliers: Multipliers, exces
     if excess.ndim != 1 or statement.flat.leading != excess.shape:
         return ceiling_allowance(statement, multipliers, statement.ceilings.excess(u))
     (over,) = (excess > 0).nonzero()
-    some, allowance = statement.subset(over), np.zeros(excess.shape)
-    allowance[over] = ceiling_allowance(some, multipliers.subset(over), some.ceilings.excess(u[over]))
+    part, allowance = statement.subset(over), np.zeros(excess.shape)
+    allowance[over] = ceiling_allowance(part, multipliers.subset(over), part.ceilings.excess(u[over]))
     return allowance
 
 

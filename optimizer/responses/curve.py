@@ -89,7 +89,7 @@ class TurnResponse:
         """Influence (K,) at a shaft angle [rad]."""
         return self.influence if self.turning is None else self.influence * np.exp(1j * self.turning * angle)
 
-    def added(self, unbalance: Complex, angle: Real) -> Complex | complex:
+    def contribution(self, unbalance: Complex, angle: Real) -> Complex | complex:
         """What counterweights (K,) kg m add to the curve at angles (n,) rad; one for all where it stands still."""
         moving = self.harmonics(unbalance)
         return self.offset(unbalance) if moving is None else moving.at(angle)
@@ -142,12 +142,12 @@ def peaks(responses: Sequence[TurnResponse], unbalance: Complex, tolerance: Real
         return peaks_about(responses, offset, tolerance)
     # what turns makes another curve of each
     tolerances = np.broadcast_to(tolerance, len(responses))
-    added = [response.harmonics(unbalance) for response in responses]
+    contribution = [response.harmonics(unbalance) for response in responses]
     brackets = [
         peaks_about([response], offset[k : k + 1], tolerances[k])
         if by is None
         else _moving(response, by, tolerances[k])
-        for k, (response, by) in enumerate(zip(responses, added, strict=True))
+        for k, (response, by) in enumerate(zip(responses, contribution, strict=True))
     ]
     return Bracket(*(np.concatenate(part) for part in zip(*brackets, strict=True)))
 

@@ -58,7 +58,7 @@ class MovingCurve:
     source: Source
     number: int
     axis: Axis | None = None
-    added: Harmonics | None = None
+    harmonics: Harmonics | None = None
 
     @cached_property
     def motion(self) -> "Motion":
@@ -66,10 +66,13 @@ class MovingCurve:
         from optimizer.responses.kernel.motion import STILL, Motion
 
         unit, sense = (STILL.unit, STILL.sense) if self.axis is None else (self.axis.unit, self.axis.sense)
-        if self.added is None:
+        if self.harmonics is None:
             return Motion(self.number, unit, sense, STILL.times, STILL.size, STILL.scalar)
-        times, size = plain(np.asarray(self.added.times, float)), plain(np.asarray(self.added.size, complex))
-        return Motion(self.number, unit, sense, times, size[None], self.added.scalar)
+        times, size = (
+            plain(np.asarray(self.harmonics.times, float)),
+            plain(np.asarray(self.harmonics.size, complex)),
+        )
+        return Motion(self.number, unit, sense, times, size[None], self.harmonics.scalar)
 
     def moved(self, cubic: Complex, rest: Real, centre: Real, half: Real) -> tuple[Complex, Real]:
         """Cubics (m, 4) of the curve in motion and what they leave out (m,), from those of the source."""
@@ -99,7 +102,7 @@ class MovingCurve:
     def _seen(self, values: Complex, angle: Real) -> Complex:
         if self.axis is not None:
             values = self.axis.along(values, angle)
-        return values if self.added is None else values + self.added.at(angle)
+        return values if self.harmonics is None else values + self.harmonics.at(angle)
 
 
 def along(pieces: Pieces, number: int, axis: Axis) -> Pieces:
@@ -109,11 +112,11 @@ def along(pieces: Pieces, number: int, axis: Axis) -> Pieces:
 
 def moved(pieces: Pieces, number: int, by: Harmonics) -> Pieces:
     """One of some curves with harmonics added, as the only one."""
-    first = _pieces(pieces, number, MovingCurve(pieces.source, number, added=by))
+    first = _pieces(pieces, number, MovingCurve(pieces.source, number, harmonics=by))
     source = pieces.source
     if isinstance(source, MovingCurve):
         # its pieces are along the axis already
-        first = replace(first, source=replace(source, added=by))
+        first = replace(first, source=replace(source, harmonics=by))
     return replace(first, size=first.size + np.sum(np.abs(by.size)))
 
 

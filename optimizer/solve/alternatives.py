@@ -15,7 +15,7 @@ import numpy as np
 from optimizer.choices.construction import feasible_set, limits_beside_castings, takes_options
 from optimizer.choices.discrete.options import EQUAL
 from optimizer.choices.feasible_set import Choice, FeasibleSet
-from optimizer.formulation.balance_shafts import chosen
+from optimizer.formulation.balance_shafts import placement_of
 from optimizer.formulation.counterweights import masses_and_angles
 from optimizer.formulation.simulation import Prepared
 from optimizer.formulation.task import Task
@@ -51,8 +51,8 @@ def alternatives(
     def choices(limits: Limits) -> FeasibleSet:
         return feasible_set(task, limits)
 
-    wanted = task.of_any_mass
-    robust = Robust(task, scene, wanted._replace(time_limit_s=_SPARE * max(left_s, 0.0)))
+    demand = task.of_any_mass
+    robust = Robust(task, scene, demand._replace(time_limit_s=_SPARE * max(left_s, 0.0)))
     points = [u]
     for _ in range(MOST_ROUNDS):
         robust.learnt(u)
@@ -90,7 +90,7 @@ def _cheaper(
     allowances = sorted(set(every))
     program = robust.goals().program
     # the best choice keeps the ceilings
-    first = over_turn(program, robust.wanted.relative_gap, False, robust.left_s).certain()
+    first = over_turn(program, robust.demand.relative_gap, False, robust.left_s).certain()
     size = float(program.units[-1])
     task, seconds = robust.task, robust.left_s
     castings = takes_options(task)
@@ -121,8 +121,8 @@ def _cheaper(
 def _described(task: Task, scene: Prepared, cheap: _Cheap) -> Alternative:
     """As it is answered."""
     minimised, allowance, choice, value, bound = cheap
-    shown = chosen(task.machine, task.objective, choice.mass, choice.angle)
-    total = float(np.sum([weight.mass_kg for weight in shown.all_of_them]))
+    placement = placement_of(task.machine, task.objective, choice.mass, choice.angle)
+    total = float(np.sum([weight.mass_kg for weight in placement.every_weight]))
     own = cost(choice, minimised)
     fixed = total - cost(choice, "mass") if minimised == "mass" else 0.0
     proven = None
@@ -139,6 +139,6 @@ def _described(task: Task, scene: Prepared, cheap: _Cheap) -> Alternative:
         pieces=int(cost(choice, "pieces")),
         sizes=int(cost(choice, "sizes")),
         lower_bound=None if proven is None else proven + fixed,
-        counterweights=shown.counterweights,
-        balance_shafts=shown.balance_shafts,
+        counterweights=placement.counterweights,
+        balance_shafts=placement.balance_shafts,
     )

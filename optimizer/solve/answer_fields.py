@@ -8,7 +8,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from optimizer.formulation.balance_shafts import DesignSpace, chosen
+from optimizer.formulation.balance_shafts import DesignSpace, placement_of
 from optimizer.formulation.counterweights import unbalance
 from optimizer.formulation.formulate import objective_ceilings
 from optimizer.formulation.goals import Goals
@@ -53,7 +53,7 @@ class Candidate(NamedTuple):
 
 
 def fitted(
-    task: Task, scene: Prepared, goals: Goals, optimum: CertifiedOptimum, wanted: Demand, in_full: bool = True
+    task: Task, scene: Prepared, goals: Goals, optimum: CertifiedOptimum, demand: Demand, in_full: bool = True
 ) -> Solution:
     """What is told of counterweights that were found.
 
@@ -65,7 +65,7 @@ def fitted(
     task, scene, goals, mass, angle = cut_plates(task, scene, goals, optimum.point.unbalance, optimum.limits)
     if goals.program.plates is not None:
         optimum = optimum.within(goals.program.limits)
-    outcome = solution_of(task, scene, goals, Candidate(mass, angle, optimum), wanted, in_full=in_full)
+    outcome = solution_of(task, scene, goals, Candidate(mass, angle, optimum), demand, in_full=in_full)
     return outcome if goals.program.plates is None else replace(outcome, cut=scene)
 
 
@@ -74,7 +74,7 @@ def solution_of(
     scene: Prepared,
     goals: Goals,
     candidate: Candidate,
-    wanted: Demand,
+    demand: Demand,
     search: SearchProof | None = None,
     in_full: bool = True,
 ) -> Solution:
@@ -88,23 +88,23 @@ def solution_of(
     began, (mass, angle, optimum) = time.perf_counter(), candidate
     together, program, square = task.space, goals.program, scene.omega_squared
     machine, u = together.machine, unbalance(mass, angle, optimum.limits.radius)
-    shown = chosen(task.machine, task.objective, mass, angle, u)
+    placement = placement_of(task.machine, task.objective, mass, angle, u)
     values = program.values(u, _CLOSE if len(program.goals) == 1 else _CLOSER)
     optimum = optimum.counting(float(values.goals[-1]))
-    claimed = _claim(wanted, program, optimum, u, values, mass, -np.inf if search is None else search.lower_bound)
+    claimed = _claim(demand, program, optimum, u, values, mass, -np.inf if search is None else search.lower_bound)
     # what the last goal allows is for the mass, and for what castings cost, after it
-    judged = verdict(claimed, wanted.relative_gap + program.goals[-1].allowance)
+    judged = verdict(claimed, demand.relative_gap + program.goals[-1].allowance)
     gap, (there, _) = judged.gap.item(), beside(machine, mass, angle)
     touched = tuple(dict.fromkeys((*touched_by_mass(machine, there), *touched_ceilings(task, goals, values))))
     proofs = Proofs.of(optimum, square, goals.speeds)
     prices, several = tuple[ShadowPrice, ...](), task.robust or task.objective.priorities
     if in_full and search is None and not (several or isnan(gap) or machine.web_groups):
         # of a group no web gives way by itself, and no choice gives way at all
-        active = shown.active_limits(touched)
+        active = placement.active_limits(touched)
         prices = _prices(together, goals, optimum.proof, proofs.objective, u, active, gap, square)
     at_rest, target = float(program.at_rest.goals[-1]), float(optimum.mass_target)
     printed = _printed(task, claimed, judged, at_rest, target, square) | _of_search(optimum, judged, search, square)
-    status, reason = status_of(optimum, judged, wanted, search, program.goals[-1].allowance)
+    status, reason = status_of(optimum, judged, demand, search, program.goals[-1].allowance)
     levels = _levels(optimum, search, goals, square)
     if search is None and program.goals[-1].allowance > 0.0:
         levels += (_mass_level(optimum, float(np.sum(there)), printed["mass_lower_bound_kg"]),)
@@ -117,8 +117,8 @@ def solution_of(
         mass,
         angle,
         u,
-        shown,
-        certificate(printed, machine, optimum.limits.max_mass, proofs.named(optimum), levels),
+        placement,
+        certificate(printed, machine, optimum.limits.max_mass, proofs.by_name(optimum), levels),
         {
             "active_limits": touched,
             "shadow_prices": prices,
@@ -226,7 +226,7 @@ def _prices(
 
 
 def _claim(
-    wanted: Demand,
+    demand: Demand,
     program: Problem,
     optimum: CertifiedOptimum,
     u: Complex,
@@ -242,7 +242,7 @@ def _claim(
     earlier = values.goals[:-1].tolist()
     against = [least > value + off for (least, off), value in zip(before, earlier, strict=True)]
     mass_bound = None
-    if wanted.least_mass:
+    if demand.least_mass:
         mass_bound = np.asarray(0.0 if optimum.mass_proof is None else optimum.mass_proof.bound)
     feasible = all(value <= goal.most * (1.0 + 1e-12) for value, goal in zip(earlier, optimum.goals, strict=False))
     return Claim(

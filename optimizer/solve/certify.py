@@ -46,7 +46,7 @@ def certified(
     goal: Objective,
     responses: Sequence[Response],
     omega_squared: Real,
-    wanted: Demand,
+    demand: Demand,
 ) -> Certified:
     """Counterweights that minimise the objective, or those closest to ceilings that are out of reach.
 
@@ -56,10 +56,10 @@ def certified(
     omega_squared : (N,) rad^2/s^2.
     """
     program = within_reach(cone_program(machine, goal, responses, omega_squared))
-    answer = optima(program, wanted.relative_gap, wanted.least_mass)
+    answer = optima(program, demand.relative_gap, demand.least_mass)
     if goal.symmetric:
         answer = replace(answer, unbalance=symmetric(program, answer.unbalance))
-    mass, angle, u, best, claimed, judged = judgement(machine, wanted, program, answer)
+    mass, angle, u, best, claimed, judged = judgement(machine, demand, program, answer)
     certificate = figures(machine, claimed, judged, program.at_rest, best.mass_target, omega_squared)
     certificate["method"] = best.method
     status, reason = judged.status, judged.reason
@@ -80,7 +80,7 @@ class Judgement(NamedTuple):
     verdict: Verdict
 
 
-def judgement(machine: Machine, wanted: Demand, program: Statement, optima: Optima) -> Judgement:
+def judgement(machine: Machine, demand: Demand, program: Statement, optima: Optima) -> Judgement:
     """What may be claimed of counterweights as they are fitted, whatever the speed.
 
     Parameters
@@ -90,12 +90,12 @@ def judgement(machine: Machine, wanted: Demand, program: Statement, optima: Opti
     mass, angle = masses_and_angles(machine, optima.unbalance, program.limits)
     u = unbalance(mass, angle, program.limits.radius)
     point = points_at(program, u)
-    if wanted.least_mass:
+    if demand.least_mass:
         optima = optima.counting(program, point.objective)
-    mass_bound = optima.mass_lower_bound if wanted.least_mass else None
+    mass_bound = optima.mass_lower_bound if demand.least_mass else None
     heavy = np.add.reduce(mass, axis=-1)
     claimed = claim(program, u, heavy, optima.lower_bound, optima.multipliers, mass_bound, point)
-    return Judgement(mass, angle, u, optima, claimed, verdict(claimed, wanted.relative_gap))
+    return Judgement(mass, angle, u, optima, claimed, verdict(claimed, demand.relative_gap))
 
 
 def figures(

@@ -14,7 +14,7 @@ import numpy as np
 from optimizer.choices.construction import feasible_set, limits_beside_castings, takes_options
 from optimizer.choices.discrete.options import EQUAL
 from optimizer.choices.feasible_set import Choice, FeasibleSet, SearchResult
-from optimizer.formulation.balance_shafts import chosen
+from optimizer.formulation.balance_shafts import placement_of
 from optimizer.formulation.goals import Goals
 from optimizer.formulation.limits import least_fitted
 from optimizer.formulation.simulation import Prepared
@@ -82,9 +82,9 @@ def best_choice(task: Task, scene: Prepared, in_full: bool = True) -> Solution |
     outcome = last.outcome
     best = replace(last.best, contradicted=last.best.contradicted or any(stage.contradicted for stage in stages))
     if not outcome.feasible and outcome.lower_bound == np.inf:
-        shown = chosen(task.machine, task.objective, picked.mass, picked.angle)
+        placement = placement_of(task.machine, task.objective, picked.mass, picked.angle)
         status, reason = search_status(outcome, "infeasible", "", True)
-        none = unreachable(task, scene, goals, shown, best.limits, None)
+        none = unreachable(task, scene, goals, placement, best.limits, None)
         return replace(none, status=status, reason=reason, method=outcome.method, nodes=_nodes(stages))
     judged = task.demand._replace(least_mass=False)
     if len(stages) < len(goals.program.goals):
@@ -171,7 +171,7 @@ class _GoalOrder:
 
     def smallest(self, later: int, reserve_s: float) -> bool:
         """Make the next goal small that is no cost; whether a choice was found that keeps the ceilings."""
-        n, program, gap = len(self.stages), self.program, self.robust.wanted.relative_gap
+        n, program, gap = len(self.stages), self.program, self.robust.demand.relative_gap
         goal, incumbent = program.goals[n], self.incumbent
         so_far = self._so_far(n + 1)
         best = self.first

@@ -50,9 +50,9 @@ _LIGHTER = 0.1
 COMPARED = SearchResult(True, -np.inf, 0, EXHAUSTED)
 
 
-def _of_parts(options: Options, chosen: np.ndarray) -> Options:
+def _of_parts(options: Options, selection: np.ndarray) -> Options:
     """The options that have the part numbers of a set (K,)."""
-    parts = options.of(options.part, chosen)
+    parts = options.of(options.part, selection)
     exists = options.exists & ((options.part < 0) | np.isin(options.part, parts[parts >= 0]))
     return replace(options, exists=exists, most_parts=None)
 
@@ -166,10 +166,10 @@ class Costs:
         number = 0
         while number < high:
             # no size is no counterweight, one or more of them may be on all webs
-            some = number if kind == "pieces" else 0 if number == 0 else -1
+            webs = number if kind == "pieces" else 0 if number == 0 else -1
             bound = self.proven.get((kind, number), -np.inf)
-            if some >= 0:
-                bound = max(bound, self._of_few_webs(some).least)
+            if webs >= 0:
+                bound = max(bound, self._of_few_webs(webs).least)
             if not (bound > level or bound == np.inf):
                 break
             number += 1
@@ -220,8 +220,8 @@ class Costs:
     def _on_few_webs(self, few: FewWebs, statement: Statement, choices: Catalogue, level: float, clock: Clock) -> float:
         """Compare choices near the optima on few webs: the last goal at least."""
 
-        def offer(chosen: np.ndarray) -> None:
-            self.offer(choices.picked(chosen, COMPARED))
+        def offer(selection: np.ndarray) -> None:
+            self.offer(choices.picked(selection, COMPARED))
 
         return compare_on_few_webs(few, statement, choices.stock.options, level, EQUAL * self.size, offer, clock)
 
@@ -307,18 +307,20 @@ class Costs:
         relaxed : (K,) kg m, the lightest of any masses.
         """
         options = choices.stock.options
-        every, above = [np.flatnonzero(some) for some in options.exists], cost(incumbent, "mass")
+        every, above = [np.flatnonzero(row) for row in options.exists], cost(incumbent, "mass")
         result = lightest(statement, options, every, level, (least, above), clock)
         if result.selection is not None:
             self.offer(choices.picked(result.selection, COMPARED))
         elif result.lower_bound < above:
             about = relaxed if options.alike is None else options.alike.means(relaxed)
             for near, many in _COUNTS:
-                for which in neighbourhoods(options, about, near, many):
+                for candidates in neighbourhoods(options, about, near, many):
                     cheapest = self.cheapest("mass", level) or incumbent
-                    chosen = None
+                    selection = None
                     if not clock.spent():
-                        chosen = lighter(statement, options, which, level, cost(cheapest, "mass"), clock).selection
-                    if chosen is not None:
-                        self.offer(choices.picked(chosen, COMPARED))
+                        selection = lighter(
+                            statement, options, candidates, level, cost(cheapest, "mass"), clock
+                        ).selection
+                    if selection is not None:
+                        self.offer(choices.picked(selection, COMPARED))
         return options.next_mass(result.lower_bound)

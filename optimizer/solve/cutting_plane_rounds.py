@@ -84,7 +84,7 @@ def in_rounds(
         result = last.result
         bound = np.inf if result.lower_bound == np.inf else max(relaxation_bound, result.lower_bound)
         return last, replace(result, lower_bound=bound)
-    bound, least, chosen, stuck = relaxation_bound, np.inf, incumbent, not program.quantities
+    bound, least, leader, stuck = relaxation_bound, np.inf, incumbent, not program.quantities
     if incumbent is not None:
         points = np.concatenate([points, incumbent.unbalance[None]])
         least = float(program.values(incumbent.unbalance, _CLOSE).goals[-1])
@@ -95,25 +95,25 @@ def in_rounds(
 
     def ended(result: SearchResult, proven: bool, early: str | None) -> SearchResult:
         lower = np.inf if result.lower_bound == np.inf else bound
-        return SearchResult(chosen is not None, lower, nodes, result.method, proven, early, rounds, pool.count())
+        return SearchResult(leader is not None, lower, nodes, result.method, proven, early, rounds, pool.count())
 
     while True:
         rounds += 1
-        posed = replace(program.outer(pool.cuts), limits=best.limits).spelled()
+        statement = replace(program.outer(pool.cuts), limits=best.limits).spelled()
         recent = points[[0, *range(max(1, len(points) - _RECENT), len(points))]]
-        loose = in_discs(under_levels(posed, program, most, bound, _STEEP), choices.reach, inside=False)
+        loose = in_discs(under_levels(statement, program, most, bound, _STEEP), choices.reach, inside=False)
         below = single_group(loose, case_of, recent, FEW, kinds)
         if choices.solved:
             # what comes to less than is known keeps the goals that come first
-            whole = in_discs(under_levels(posed, program, most, least, _STEEP), choices.reach, inside=True)
+            whole = in_discs(under_levels(statement, program, most, least, _STEEP), choices.reach, inside=True)
             whole = single_group(whole, case_of, recent, FEW, kinds)
         else:
-            whole = under_levels(posed, program, most, bound, _SHEER)
+            whole = under_levels(statement, program, most, bound, _SHEER)
             # a statement is of one sum
             whole = single_group(whole, case_of, points, MANY, kinds) if case_of[-1] > 0 else whole
-        wanted = _GAP_SHARE * gap if stuck else max(_GAP_SHARE * gap, _LEFT * (min(least, at_rest) - bound))
+        tolerance = _GAP_SHARE * gap if stuck else max(_GAP_SHARE * gap, _LEFT * (min(least, at_rest) - bound))
         left = left_s() * (1.0 if stuck else _TURN)
-        last = choices.best(Subproblem(whole, points, bound, wanted / size, size, left, below))
+        last = choices.best(Subproblem(whole, points, bound, tolerance / size, size, left, below))
         result, nodes = last.result, nodes + last.result.nodes
         if result.lower_bound == np.inf:
             # none keeps the cuts of the ceilings
@@ -122,16 +122,16 @@ def in_rounds(
         values = program.values(last.unbalance, _CLOSE)
         value, feasible = float(values.goals[-1]), bool(np.all(values.goals[:-1] <= most))
         if feasible and values.excess <= CEILING_TOLERANCE and value <= least + resolution:
-            least, chosen = min(value, least), last
+            least, leader = min(value, least), last
         closed = least - bound <= max(gap, resolution) or least <= level or -np.inf < level < bound
         learnt = _learn(program, pool, last.unbalance)
         if most.size:
             # levels are told apart the better the closer both are
             learnt |= bound > before[0] + resolution or least < before[1] - resolution
         if closed or left_s() <= 0.0 or (stuck and not learnt):
-            all_compared = closed and chosen is last and result.proven
+            all_compared = closed and leader is last and result.proven
             early = None if closed else result.ended or ("time" if left_s() <= 0.0 else "cuts")
-            return chosen or last, ended(result, all_compared, early)
+            return leader or last, ended(result, all_compared, early)
         stuck, points = not learnt, np.concatenate([points, last.unbalance[None]])
 
 
@@ -149,7 +149,7 @@ def _first_cuts(program: Problem) -> list[list[Cut]]:
 def _learn(program: Problem, pool: Pool, u: Complex) -> bool:
     """Take the cuts that tell what an unbalance (K,) comes to; whether any is new."""
     reached = program.values(u, _CLOSE).reached
-    _, places = program.seen(u, _HIGH * np.array([evaluation.lower for evaluation in reached]))
-    all_of_them = np.full(len(reached), -np.inf)
-    new = pool.add([(evaluation,) for evaluation in reached], u, all_of_them)
-    return pool.add(places, u, all_of_them) or new
+    _, places = program.sample_values(u, _HIGH * np.array([evaluation.lower for evaluation in reached]))
+    thresholds = np.full(len(reached), -np.inf)
+    new = pool.add([(evaluation,) for evaluation in reached], u, thresholds)
+    return pool.add(places, u, thresholds) or new

@@ -53,8 +53,8 @@ def few_webs(program: Problem, limits: Limits, number: int) -> FewWebs:
     if statement is None or limits.alike is not None or math.comb(webs, number) > _SUBSETS:
         return UNKNOWN
     subsets = np.zeros((math.comb(webs, number), webs), bool)
-    for n, some in enumerate(combinations(range(webs), number)):
-        subsets[n, list(some)] = True
+    for n, subset in enumerate(combinations(range(webs), number)):
+        subsets[n, list(subset)] = True
     programs = replace(statement, limits=limits).alone().subset(np.zeros(len(subsets), int))
     programs = replace(programs, limits=replace(programs.limits, max_mass=subsets * limits.max_mass))
     answer = optima(programs, _GAP, False)
@@ -91,34 +91,34 @@ def compare_on_few_webs(
         every = np.prod(np.sum(options.exists[webs], axis=-1, dtype=float)) <= _EVERY
         if clock.spent() or not (every or n < _TRIED):
             return few.least
-        which = [np.array([0]) for _ in range(options.slots)]
+        candidates = [np.array([0]) for _ in range(options.slots)]
         for k in webs:
             own = int(np.sum(options.exists[k])) if every else count
-            which[k] = near_options(options, k, complex(few.points[n, k]), own)
+            candidates[k] = near_options(options, k, complex(few.points[n, k]), own)
         before = incumbent.selection
-        above &= exhaust(options, which, incumbent, _SUMS, _PAIRS, clock) and every
+        above &= exhaust(options, candidates, incumbent, _SUMS, _PAIRS, clock) and every
         if incumbent.selection is not before and incumbent.selection is not None:
             above = False
             offer(incumbent.selection)
             mass = float(np.sum(options.of(options.mass, incumbent.selection)))
-            light = lighter(statement, options, which, min(level, float(statement.at_rest)), mass, clock).selection
+            light = lighter(statement, options, candidates, min(level, float(statement.at_rest)), mass, clock).selection
             if light is not None:
                 offer(light)
     # all that are no more than the level would have been found
     return float(np.nextafter(level, np.inf)) if above and level <= incumbent.least else few.least
 
 
-def lightened(statement: Statement, options: Options, chosen: np.ndarray, level: float, clock: Clock) -> np.ndarray:
+def lightened(statement: Statement, options: Options, selection: np.ndarray, level: float, clock: Clock) -> np.ndarray:
     """A set (K,), and as long as there is one a lighter one near to it on its slots, no worse than a level."""
-    fitted = np.flatnonzero(chosen)
+    fitted = np.flatnonzero(selection)
     count = int(_BESIDE ** (1.0 / max(math.ceil(fitted.size / 2), 1)))
     while not clock.spent():
-        which = [np.array([option]) for option in chosen]
+        candidates = [np.array([option]) for option in selection]
         for k in fitted.tolist():
-            which[k] = near_options(options, k, complex(options.unbalance[k, chosen[k]]), count)
-        mass = float(np.sum(options.of(options.mass, chosen)))
-        result = lighter(statement, options, which, level, mass, clock, most_pairs=_PAIRS)
+            candidates[k] = near_options(options, k, complex(options.unbalance[k, selection[k]]), count)
+        mass = float(np.sum(options.of(options.mass, selection)))
+        result = lighter(statement, options, candidates, level, mass, clock, most_pairs=_PAIRS)
         if result.selection is None:
             break
-        chosen = result.selection
-    return chosen
+        selection = result.selection
+    return selection

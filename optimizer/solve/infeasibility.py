@@ -6,7 +6,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from optimizer.formulation.balance_shafts import Fitted, chosen
+from optimizer.formulation.balance_shafts import Fitted, placement_of
 from optimizer.formulation.formulate import RESPONSES, objective_ceilings
 from optimizer.formulation.formulate import limited as limited_responses
 from optimizer.formulation.goals import Goals
@@ -21,7 +21,7 @@ from optimizer.program.optimum import optimum
 from optimizer.program.rows import Row, weighted_peak
 from optimizer.program.verdict import INFEASIBLE
 from optimizer.solve.cut_plates import cut_plates, implied_masses
-from optimizer.solve.proof import named_excess
+from optimizer.solve.proof import excess_multipliers
 from optimizer.solve.solution import Infeasible, multipliers_of
 from schemas.answer.infeasibility import Closest, Infeasibility, SmallestPeak
 from schemas.answer.limits import CeilingField
@@ -61,14 +61,14 @@ class StatedCeiling(NamedTuple):
     over_turn: bool = False  # on a response over the whole turn
 
     @property
-    def listed(self) -> bool:
+    def needs_entry(self) -> bool:
         """With what its response comes to at least, for which the answer has no other field."""
         return self.over_turn or self.response not in PAIR
 
 
 def report(
     scene: Prepared,
-    shown: Fitted,
+    placement: Fitted,
     ceilings: Sequence[StatedCeiling],
     together: Sequence[StatedCeiling],
     least: Mapping[str, Smallest],
@@ -80,13 +80,13 @@ def report(
 
     Parameters
     ----------
-    shown : what comes closest.
+    placement : what comes closest.
     together : ceilings that conflict where each by itself can be kept.
     least : of the responses, and of all under ceilings that the report is about.
     implied : largest masses that the proofs count with.
     """
     impossible = [ceiling for ceiling in ceilings if least[ceiling.response].lower_bound > ceiling.allowed]
-    left = replace(scene, shafts=shown.on_shafts).first_order(shown.on_crank)
+    left = replace(scene, shafts=placement.on_shafts).first_order(placement.on_crank)
     return Infeasibility(
         conflict=tuple(dict.fromkeys(entry.field for entry in impossible or together)),
         **smallest_peaks(
@@ -103,14 +103,14 @@ def report(
                 multipliers=least[entry.response].multipliers,
             )
             for entry in dict.fromkeys(ceilings)
-            if entry.listed
+            if entry.needs_entry
         ),
         implied_max_mass_kg=implied.together,
         smallest_implied_max_mass_kg=implied.alone,
         scenarios=scenarios,
         closest=Closest(
-            counterweights=shown.counterweights,
-            balance_shafts=shown.balance_shafts,
+            counterweights=placement.counterweights,
+            balance_shafts=placement.balance_shafts,
             first_order=first_order(left),
             responses=response_peaks(scene, left),
         ),
@@ -124,7 +124,7 @@ def out_of_reach(task: Task, scene: Prepared, goals: Goals, failure: Conflict) -
     """Which ceilings conflict, what each peak comes to by itself, and the best compromise."""
     cut, there, within, mass, angle = cut_plates(task, scene, goals, failure.closest.unbalance, failure.limits)
     infeasible = unreachable(
-        task, there, goals, chosen(cut.machine, cut.objective, mass, angle), failure.limits, failure
+        task, there, goals, placement_of(cut.machine, cut.objective, mass, angle), failure.limits, failure
     )
     return infeasible if within.program.plates is None else replace(infeasible, cut=there)
 
@@ -133,7 +133,7 @@ def unreachable(
     task: Task,
     scene: Prepared,
     goals: Goals,
-    shown: Fitted,
+    placement: Fitted,
     within: Limits,
     failure: Conflict | None,
 ) -> Infeasible:
@@ -156,7 +156,7 @@ def unreachable(
     # of all orders the ceilings are among what is limited over the turn
     ceilings = objective_ceilings(task.objective) if task.objective.orders == "first" else []
     exact = [StatedCeiling(fields.response, fields.field, allowed) for fields, allowed in ceilings]
-    both = [
+    of_turn = [
         StatedCeiling(name, limit.field, limit.ceiling, over_turn=True)
         for limit in goals.limited
         for name in [alone.quantities[limit.quantity].name]
@@ -164,23 +164,23 @@ def unreachable(
     ]
     # of a cone program a small multiplier may hold a large ceiling
     few = goals.program.finite is None
-    together = [ceiling for ceiling in (*exact, *both) if few and ceiling.response in at_fault] or exact
+    together = [ceiling for ceiling in (*exact, *of_turn) if few and ceiling.response in at_fault] or exact
     conflict, scenarios = None, tuple[str, ...]()
     if failure is not None:
         scales, proof = goals.program.excess_scales(failure.proof.cuts), failure.proof
-        conflict = named_excess(proof.with_pieces, proof.multipliers, scales, goals.speeds)
+        conflict = excess_multipliers(proof.with_pieces, proof.multipliers, scales, goals.speeds)
         scenarios = _scenarios(goals.program, failure)
     implied = _implied(task.space.machine, within, {name: peak.limits for name, peak in least.items()})
-    infeasibility = report(scene, shown, (*exact, *both), together, peaks, implied, conflict, scenarios)
+    infeasibility = report(scene, placement, (*exact, *of_turn), together, peaks, implied, conflict, scenarios)
     spent = (0.0 if failure is None else failure.certify_s) + sum(peak.certify_s for peak in least.values())
     return Infeasible("infeasible", INFEASIBLE, infeasibility, spent, METHOD if failure is None else failure.method)
 
 
 def _implied(machine: Machine, together: Limits, alone: Mapping[str, Limits]) -> ImpliedMasses:
     """The masses within which the conflict is proven, and of each response by itself where that counts with others."""
-    others = {name: limits for name, limits in alone.items() if np.any(limits.max_mass != together.max_mass)}
+    rest = {name: limits for name, limits in alone.items() if np.any(limits.max_mass != together.max_mass)}
     return ImpliedMasses(
-        implied_masses(machine, together), {name: implied_masses(machine, limits) for name, limits in others.items()}
+        implied_masses(machine, together), {name: implied_masses(machine, limits) for name, limits in rest.items()}
     )
 
 

@@ -4,7 +4,7 @@ import numpy as np
 
 from optimizer.choices.construction import feasible_set, takes_options
 from optimizer.choices.feasible_set import Choice, SearchResult
-from optimizer.formulation.balance_shafts import drawn
+from optimizer.formulation.balance_shafts import in_drawing
 from optimizer.formulation.simulation import Prepared
 from optimizer.formulation.task import Task
 from optimizer.mechanics.fixed_weights import fixed_masses
@@ -82,7 +82,7 @@ def _of_choice(task: Task, choice: Choice, result: SearchResult, gap: float, rea
     status = "optimal" if result.feasible and lightest - bound <= gap * lightest else "inaccurate"
     if not result.feasible and bound == np.inf:
         status = "infeasible"
-    mass, angle = drawn(task.machine, task.objective, choice.mass, choice.angle)
+    mass, angle = in_drawing(task.machine, task.objective, choice.mass, choice.angle)
     value, fixed = float(np.sum(mass)), float(np.sum(fixed_masses(task.machine)))
     bound = bound + fixed
     if np.isfinite(bound) and bound > value * (1.0 + (_ROUNDING if np.all(takes_options(task)) else _KEPT)):

@@ -54,7 +54,7 @@ _ROOM_TO_BE_ALIKE = (0.999, 0.99, 0.9)
 
 
 def cut_optimum(
-    machine: Machine, cut: Plates, program: Problem, statement: Statement, wanted: Demand
+    machine: Machine, cut: Plates, program: Problem, statement: Statement, demand: Demand
 ) -> CertifiedOptimum | Conflict:
     """Certified unbalances that are cut from plates, of a problem that is a cone program without a budget.
 
@@ -64,14 +64,14 @@ def cut_optimum(
     cut : these plates.
     statement : the cone program.
     """
-    end = thread_time() + wanted.time_limit_s
+    end = thread_time() + demand.time_limit_s
     stated, every = statement.alone(), np.ones(len(machine.webs), bool)
     whole = within_reach(stated)
-    task = _CutSearch(machine, wanted, program.symmetric, whole, cut, wanted.relative_gap, every)
+    task = _CutSearch(machine, demand, program.symmetric, whole, cut, demand.relative_gap, every)
     outcome = task.optimum(end)
     if whole is not stated:
         statement = replace(statement, limits=mapped(whole.limits, lambda array: array[0]))
-    return solution(program, statement, outcome, outcome.unbalance[0], wanted.least_mass)
+    return solution(program, statement, outcome, outcome.unbalance[0], demand.least_mass)
 
 
 class _JudgedCut(NamedTuple):
@@ -102,7 +102,7 @@ class _Round(NamedTuple):
 @record(frozen=True)
 class _CutSearch:
     machine: Machine  # with plates in place of some webs
-    wanted: Demand
+    demand: Demand
     symmetric: bool  # whether what is alike is to be alike
     whole: Statement  # (1,), whose limits are how far the plates reach
     plates: Plates
@@ -128,19 +128,19 @@ class _CutSearch:
         ----------
         end : of this thread's own time, after which no more nodes are laid.
         """
-        nodes, tried = self.guessed(first_nodes(self.plates)), list[_Round]()
+        nodes, rounds = self.guessed(first_nodes(self.plates)), list[_Round]()
         for _ in range(_ROUNDS):
-            tried.append(self.round(nodes))
-            outcome = self.lightest(tried)
+            rounds.append(self.round(nodes))
+            outcome = self.lightest(rounds)
             if not self.too_heavy(outcome):
                 best = self.judged_alike(self.without_dust(outcome, nodes), nodes)
                 if best.status != "inaccurate":
                     return best.optima
             if thread_time() > end:
                 break
-            nodes = closer_nodes(nodes, self.opened(tried[-1].called_for))
+            nodes = closer_nodes(nodes, self.opened(rounds[-1].called_for))
         # of those that are equally near the last
-        attempts = (*reversed(tried), self.lightest(tried))
+        attempts = (*reversed(rounds), self.lightest(rounds))
         return min((self.judged(attempt.proven, attempt.cut) for attempt in attempts), key=lambda best: best.gap).optima
 
     def opened(self, u: Complex) -> Real:
@@ -149,8 +149,8 @@ class _CutSearch:
 
     def guessed(self, nodes: Real) -> Real:
         """Nodes about what is guessed from those of tangents."""
-        share = min(OPTIMUM_SHARE, self.wanted.relative_gap) * self.size
-        angle = guessed(self.whole, self.plates, nodes, share, self.wanted.least_mass)
+        share = min(OPTIMUM_SHARE, self.demand.relative_gap) * self.size
+        angle = guessed(self.whole, self.plates, nodes, share, self.demand.least_mass)
         return nodes if angle is None else closer_nodes(nodes, angle)
 
     def round(self, nodes: Real) -> _Round:
@@ -165,22 +165,22 @@ class _CutSearch:
         mass = float(total_mass(whole, self.plates, u, angle))
         return _Round(proven, CutWeights(u, angle, mass), called_for)
 
-    def lightest(self, tried: Sequence[_Round]) -> _Round:
+    def lightest(self, rounds: Sequence[_Round]) -> _Round:
         """The last round, or the lightest of all cuts with the largest bound of the mass: proofs hold for all cuts."""
-        *_, last = tried
-        if not self.wanted.least_mass or last.proven.unreachable[0]:
+        *_, last = rounds
+        if not self.demand.least_mass or last.proven.unreachable[0]:
             return last
         proven = max(
-            (attempt.proven for attempt in reversed(tried)), key=lambda attempt: float(attempt.mass_lower_bound[0])
+            (attempt.proven for attempt in reversed(rounds)), key=lambda attempt: float(attempt.mass_lower_bound[0])
         )
-        optima = [attempt.cut for attempt in tried if self._keeps(proven, attempt.cut)]
+        optima = [attempt.cut for attempt in rounds if self._keeps(proven, attempt.cut)]
         return _Round(proven, self._between(optima), last.called_for) if optima else last
 
     def _between(self, optima: Sequence[CutWeights]) -> CutWeights:
         """The lightest of some cuts and of what lies between it and them: objective and mass are convex."""
         lightest = min(optima, key=lambda cut: cut.mass)
-        for other in optima:
-            u = lightest.unbalance + _PARTS[:, None] * (other.unbalance - lightest.unbalance)
+        for rival in optima:
+            u = lightest.unbalance + _PARTS[:, None] * (rival.unbalance - lightest.unbalance)
             angle = self.plates.opened(np.abs(u[:, self.plates.webs]))
             mass = total_mass(self.whole, self.plates, u, angle)
             n = int(np.argmin(mass))
@@ -195,7 +195,7 @@ class _CutSearch:
 
     def _optimum(self, webs: Webs) -> tuple[Pieces, Optima]:
         laid = pieces(self.whole, self.plates, webs, self.left)
-        return laid, optima(laid.program, self.relative_gap, self.wanted.least_mass)
+        return laid, optima(laid.program, self.relative_gap, self.demand.least_mass)
 
     def without_dust(self, outcome: _Round, nodes: Real) -> _Round:
         """The same with webs left empty that carry next to nothing, where what is proven of all holds for it."""
@@ -211,20 +211,20 @@ class _CutSearch:
             left, share, laid = left & ~empty, _WITH_ROOM * allowed, nodes
             optima = list[CutWeights]()
             for _ in range(_CLEARINGS):
-                other = replace(self, left=left, relative_gap=share).round(laid)
-                optima += [other.cut] if self._keeps(outcome.proven, other.cut) else []
-                cleared = outcome._replace(cut=self._between(optima) if optima else other.cut)
+                attempt = replace(self, left=left, relative_gap=share).round(laid)
+                optima += [attempt.cut] if self._keeps(outcome.proven, attempt.cut) else []
+                cleared = outcome._replace(cut=self._between(optima) if optima else attempt.cut)
                 if self._optimal(outcome.proven, cleared.cut) is not None:
                     outcome = cleared
                     break
                 # the smallest objective of these webs is larger: what it is above is no longer to be spent on mass
-                over = float(self.whole.objective(other.cut.unbalance)[0] - self._largest(outcome.proven))
+                over = float(self.whole.objective(attempt.cut.unbalance)[0] - self._largest(outcome.proven))
                 if over > 0.0:
                     share -= max(1.01 * over / float(self.size[0]), (1.0 - _WITH_ROOM) * allowed)
                 if share <= 0.0:
                     return outcome
                 # what is too heavy is so because the nodes lie about other plates
-                laid = closer_nodes(laid, self.opened(other.called_for))
+                laid = closer_nodes(laid, self.opened(attempt.called_for))
             else:
                 break
         return outcome
@@ -237,7 +237,7 @@ class _CutSearch:
 
     def too_heavy(self, outcome: _Round) -> bool:
         """Whether what would be cut is not the lightest, so that it need not be judged."""
-        if not self.wanted.least_mass or outcome.proven.unreachable[0]:
+        if not self.demand.least_mass or outcome.proven.unreachable[0]:
             return False
         mass = outcome.cut.mass
         size = np.maximum(mass, _NEARER * mass_resolution(self.whole, self.size[..., None])[0])
@@ -251,9 +251,9 @@ class _CutSearch:
         for share in _ROOM_TO_BE_ALIKE:
             # the least mass spends all that an optimum may be off, so that none is left for plates to be alike
             task = replace(self, relative_gap=share * min(self.relative_gap, OPTIMUM_SHARE))
-            other = self._judged_alike(outcome._replace(cut=task.round(nodes).cut), nodes)
-            if other.status == "optimal" and not unlike(self.plates, self.opened(other.optima.unbalance[0])):
-                return other
+            attempt = self._judged_alike(outcome._replace(cut=task.round(nodes).cut), nodes)
+            if attempt.status == "optimal" and not unlike(self.plates, self.opened(attempt.optima.unbalance[0])):
+                return attempt
         return best
 
     def _judged_alike(self, outcome: _Round, nodes: Real) -> _JudgedCut:
@@ -272,13 +272,13 @@ class _CutSearch:
         if proven.unreachable[0]:
             return outcome.cut
         optimum = float(proven.lower_bound[0]), self._largest(proven)
-        least_mass = float(proven.mass_lower_bound[0]) if self.wanted.least_mass else np.inf
+        least_mass = float(proven.mass_lower_bound[0]) if self.demand.least_mass else np.inf
         return alike(self.whole, self.plates, nodes, outcome.cut, optimum, least_mass)
 
     def _largest(self, proven: Optima) -> float:
         """Largest objective of an optimum, of which what is proven of the mass holds."""
-        largest = float(proven.lower_bound[0] + self.wanted.relative_gap * self.size[0])
-        return min(largest, float(proven.mass_target[0])) if self.wanted.least_mass else largest
+        largest = float(proven.lower_bound[0] + self.demand.relative_gap * self.size[0])
+        return min(largest, float(proven.mass_target[0])) if self.demand.least_mass else largest
 
     def _optimal(self, proven: Optima, cut: CutWeights) -> _JudgedCut | None:
         """What may be claimed of another cut, None where that is not an optimum."""
@@ -293,4 +293,4 @@ class _CutSearch:
         stated = limits(machine, (1,))
         program = replace(self.whole, limits=limits_of_cut(stated, self.whole.limits, self.plates, cut.angle))
         outcome = replace(proven, unbalance=cut.unbalance[None])
-        return _JudgedCut(outcome, judgement(machine, self.wanted, program, outcome).verdict)
+        return _JudgedCut(outcome, judgement(machine, self.demand, program, outcome).verdict)

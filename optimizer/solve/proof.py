@@ -129,7 +129,7 @@ def implied_max_mass(machine: Machine, most: Real) -> list[dict[str, float]]:
     ]
 
 
-def named(statement: Statement, multipliers: PhysicalMultipliers) -> BoundMultipliers:
+def bound_multipliers(statement: Statement, multipliers: PhysicalMultipliers) -> BoundMultipliers:
     """Multipliers of a bound on one program (no leading axes of theirs) by the names of its terms, rows, ceilings."""
     return BoundMultipliers.model_validate(fields_by_name(statement, multipliers))
 
@@ -154,13 +154,13 @@ def fields_by_name(statement: Statement, multipliers: PhysicalMultipliers) -> di
     }
 
 
-def named_conflict(statement: Statement, multipliers: PhysicalMultipliers) -> BoundMultipliers:
+def conflict_multipliers(statement: Statement, multipliers: PhysicalMultipliers) -> BoundMultipliers:
     """Multipliers of :func:`conflict`, one program: its rows are the ceilings."""
     names = statement.ceilings.names
     return BoundMultipliers.model_validate({"terms": (), **_shared(names, statement, multipliers)})
 
 
-def named_excess(excess: Statement, multipliers: Multipliers, scales: Real, speeds: Speeds) -> BoundMultipliers:
+def excess_multipliers(excess: Statement, multipliers: Multipliers, scales: Real, speeds: Speeds) -> BoundMultipliers:
     """Multipliers that prove that ceilings cannot be kept, by the program of their excess: a row for each ceiling.
 
     Parameters

@@ -26,8 +26,8 @@ def sensitivity(goals: Goals, u: Complex, values: Values, omega_squared: float) 
     """
     program = goals.anywhere
     if program.finite is not None:
-        as_it_is, by_angle, by_mass = worst_objectives(program.finite, u, _DEGREE, _PERCENT).reshape(3).tolist()
-        return _rises(as_it_is, by_angle, by_mass, omega_squared)
+        nominal, by_angle, by_mass = worst_objectives(program.finite, u, _DEGREE, _PERCENT).reshape(3).tolist()
+        return _rises(nominal, by_angle, by_mass, omega_squared)
     if program.scatter != EXACT or program is not goals.program:
         # of the counterweights as they should be, whatever they are allowed to be off by
         program = replace(program, scatter=EXACT)

@@ -93,7 +93,7 @@ def multipliers_of(proof: Proof, omega_squared: float, speeds: Speeds) -> BoundM
     speeds : omega^2 by scenario, that ceilings are over.
     """
     in_units = physical(proof.with_pieces, proof.multipliers, "objective", omega_squared, speeds)
-    return BoundMultipliers.model_validate(_named(proof, in_units))
+    return BoundMultipliers.model_validate(_fields_of(proof, in_units))
 
 
 class Proofs(NamedTuple):
@@ -122,15 +122,15 @@ class Proofs(NamedTuple):
             return cls(in_units, None)
         return cls(in_units, physical(of_mass.with_pieces, of_mass.multipliers, "mass", omega_squared, speeds))
 
-    def named(self, optimum: CertifiedOptimum) -> dict[str, Any]:
+    def by_name(self, optimum: CertifiedOptimum) -> dict[str, Any]:
         """Fields of :class:`schemas.answer.proof.Multipliers`, as an answer prints them."""
         of_mass = None
         if self.mass is not None and optimum.mass_proof is not None:
-            of_mass = _named(optimum.mass_proof, self.mass)
-        return {"objective": _named(optimum.proof, self.objective), "mass": of_mass}
+            of_mass = _fields_of(optimum.mass_proof, self.mass)
+        return {"objective": _fields_of(optimum.proof, self.objective), "mass": of_mass}
 
 
-def _named(proof: Proof, in_units: PhysicalMultipliers) -> dict[str, Any]:
+def _fields_of(proof: Proof, in_units: PhysicalMultipliers) -> dict[str, Any]:
     return fields_by_name(proof.statement, in_units.of_groups(proof.statement, proof.scale))
 
 
@@ -147,7 +147,7 @@ def certificate(
     ----------
     figures : of one design, by the fields of a certificate; what is not finite is null.
     most : (K,) kg, largest masses that the proofs count with.
-    multipliers : as of :meth:`Proofs.named`.
+    multipliers : as of :meth:`Proofs.by_name`.
     """
     return Certificate.of_figures(
         {name: value if isinstance(value, str) else finite_or_null(value) for name, value in figures.items()}

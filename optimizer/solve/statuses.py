@@ -109,7 +109,7 @@ class SearchProof(NamedTuple):
 
 
 def status_of(
-    optimum: CertifiedOptimum, judged: Verdict, wanted: Demand, search: SearchProof | None, allowance: float
+    optimum: CertifiedOptimum, judged: Verdict, demand: Demand, search: SearchProof | None, allowance: float
 ) -> tuple[str, str]:
     """The status and a sentence why.
 
@@ -119,7 +119,7 @@ def status_of(
     """
     status, reason = str(judged.status.item()), str(judged.reason.item())
     if optimum.timed_out and status != "optimal" and reason != CONTRADICTED:
-        reason = f"The time limit of {wanted.time_limit_s:g} s ended the search. {reason}"
+        reason = f"The time limit of {demand.time_limit_s:g} s ended the search. {reason}"
     if search is not None:
         proven = search.bounds is None or not np.isnan(judged.lower_bound[0])
         status, reason = search_status(search.ended, status, reason, proven)

@@ -15,7 +15,7 @@ import numpy as np
 
 from optimizer.errors import MissingInput
 from optimizer.formulation.balance_shafts import DesignSpace, design_space
-from optimizer.formulation.formulate import counted, objective_ceilings, responses, weights
+from optimizer.formulation.formulate import active_responses, objective_ceilings, responses, weights
 from optimizer.formulation.goals import Case, Goals, formulate
 from optimizer.formulation.simulation import Prepared
 from optimizer.formulation.task import Demand, Task
@@ -122,14 +122,14 @@ class MachineOfCase:
         )
         turn = (self.turn, self.scene.laden) if self.space.objective.of_the_revolution else None
         masses = self.share if self.scatters else 0.0
-        named = self.scenario, self.weight, masses
-        return Case(self.space.machine, self.scene.omega_squared, variants or (self.nominal,), turn, *named)
+        arguments = self.scenario, self.weight, masses
+        return Case(self.space.machine, self.scene.omega_squared, variants or (self.nominal,), turn, *arguments)
 
 
 class Robust:
     """The program of one task, as far as the worst masses are known where they scatter."""
 
-    def __init__(self, task: Task, scene: Prepared, wanted: Demand) -> None:
+    def __init__(self, task: Task, scene: Prepared, demand: Demand) -> None:
         """Prepare the machines of all scenarios.
 
         Raises
@@ -137,7 +137,7 @@ class Robust:
         MissingInput
             if one of them lacks what the objective needs.
         """
-        self.task, self.scene, self.wanted, self.space = task, scene, wanted, task.space
+        self.task, self.scene, self.demand, self.space = task, scene, demand, task.space
         tolerances = task.tolerances
         self.scatter = scatter_of(tolerances)
         share = 0.0 if tolerances is None else tolerances.reciprocating_mass_relative
@@ -145,7 +145,7 @@ class Robust:
         for machine in self.machines:
             if machine.scene is not scene:
                 scene.simulated.join(machine.scene.simulated, "scenarios")
-        self._until = time.thread_time() + wanted.time_limit_s
+        self._until = time.thread_time() + demand.time_limit_s
         #: signs of the changes of masses that are known of every machine
         self._signs: list[list[Real]] = [[] for _ in self.machines]
         if self.scatters:
@@ -201,7 +201,7 @@ class Robust:
 
     def solved(self) -> tuple[Goals, CertifiedOptimum | Conflict]:
         """The program with all changes of masses that matter, and its proof."""
-        gap, least = self.wanted.relative_gap, self.wanted.least_mass
+        gap, least = self.demand.relative_gap, self.demand.least_mass
         for _ in range(MOST_ROUNDS):
             goals = self.goals()
             result = self._cut(goals.program) or optimum(goals.program, gap, least, self.left_s)
@@ -218,10 +218,10 @@ class Robust:
         A budget holds of what is cut and not of its tangents, by which it is found here.
         """
         cut, budget = plates(self.space.machine), program.limits.max_total_mass < np.inf
-        statement = None if cut is None or budget else cone_program(program, self.wanted.least_mass)
+        statement = None if cut is None or budget else cone_program(program, self.demand.least_mass)
         if cut is None or statement is None:
             return None
-        return cut_optimum(self.space.machine, cut, program, statement, self.wanted)
+        return cut_optimum(self.space.machine, cut, program, statement, self.demand)
 
 
 def _scenarios(task: Task, nominal: Prepared, share: float) -> Iterator[MachineOfCase]:
@@ -239,10 +239,10 @@ def _measures(task: Task) -> Iterator[Measure]:
     objective = task.objective
     if objective.orders == "all":
         return
-    across, wanted = objective.direction_weights, weights(task.machine, objective)
-    names = [quantity.name for quantity in counted(objective)]
+    across, weight_of = objective.direction_weights, weights(task.machine, objective)
+    names = [quantity.name for quantity in active_responses(objective)]
     for r, name in enumerate(names):
-        if wanted[name] > 0:
+        if weight_of[name] > 0:
             yield Measure(r, across.x, across.y)
     for ceiling, _ in objective_ceilings(objective):
         response = names.index(ceiling.response.partition(":")[0])

@@ -6,9 +6,9 @@ from dataclasses import replace
 
 import numpy as np
 
-from optimizer.formulation.balance_shafts import Fitted, chosen
+from optimizer.formulation.balance_shafts import Fitted, placement_of
 from optimizer.formulation.counterweights import unbalance
-from optimizer.formulation.formulate import added, counted, of_all_orders
+from optimizer.formulation.formulate import active_responses, extra_responses, of_all_orders
 from optimizer.formulation.goals import Goals, bearing_responses, formulate
 from optimizer.formulation.simulation import Prepared
 from optimizer.formulation.task import Task
@@ -50,7 +50,7 @@ def best_of_any_mass(task: Task, scene: Prepared, in_full: bool = True) -> Solut
     goals, result = robust.solved()
     if isinstance(result, Conflict):
         return out_of_reach(task, scene, goals, result)
-    solution = fitted(task, scene, goals, result, robust.wanted, in_full)
+    solution = fitted(task, scene, goals, result, robust.demand, in_full)
     return _beside_nominal(robust, goals, solution) if task.robust else solution
 
 
@@ -66,12 +66,12 @@ def _beside_nominal(robust: Robust, goals: Goals, solution: Solution) -> Solutio
     if goals.program.plates is not None:
         best = best.within(goals.program.limits)
     u = unbalance(mass, angle, best.limits.radius)
-    shown = chosen(task.machine, task.objective, mass, angle)
-    return with_worst_case(robust, solution, u, late, _proof_of(robust, best, shown, u, implied))
+    placement = placement_of(task.machine, task.objective, mass, angle)
+    return with_worst_case(robust, solution, u, late, _proof_of(robust, best, placement, u, implied))
 
 
 def _proof_of(
-    robust: Robust, best: CertifiedOptimum, shown: Fitted, u: Complex, implied: Mapping[str, float]
+    robust: Robust, best: CertifiedOptimum, placement: Fitted, u: Complex, implied: Mapping[str, float]
 ) -> dict[str, object]:
     """The best counterweights (K,) kg m of the machine as it is given, and of one goal what is proven of them.
 
@@ -80,8 +80,8 @@ def _proof_of(
     implied : masses that the proof counts with, kg by web.
     """
     fields: dict[str, object] = {
-        "nominal_counterweights": shown.counterweights,
-        "nominal_balance_shafts": shown.balance_shafts,
+        "nominal_counterweights": placement.counterweights,
+        "nominal_balance_shafts": placement.balance_shafts,
     }
     if len(best.goals) > 1:
         return fields
@@ -133,7 +133,7 @@ def _peaks(robust: Robust, u: Complex) -> dict[str, float]:
     """Of every response on the frame that counts."""
     return {
         response.name: max(_external(robust, machine, k, u) for machine in robust.machines)
-        for k, response in enumerate(counted(robust.task.objective))
+        for k, response in enumerate(active_responses(robust.task.objective))
     }
 
 
@@ -149,7 +149,7 @@ def _worst_case(robust: Robust, u: Complex, objective: float) -> WorstCase:
             ResponsePeak(
                 response=response.name, label=response.fields.label, unit=response.unit, peak=peaks[response.name]
             )
-            for response in added(robust.task.objective)
+            for response in extra_responses(robust.task.objective)
         ),
         bearing_peak_N=max(loads) if loads else None,
         objective=objective,
@@ -192,10 +192,10 @@ def _bearing_responses(machine: MachineOfCase, fidelity: Fidelity) -> Iterator[T
 def _nominal_optimum(robust: Robust) -> tuple[CertifiedOptimum | None, bool]:
     """The best counterweights of the machine as it is given, if any keep its ceilings; whether the limit of time,
     of which the search has what is left, leaves that open."""
-    plain, wanted, left = nominal(robust), robust.wanted, robust.left_s
+    plain, demand, left = nominal(robust), robust.demand, robust.left_s
     if left == 0.0:
         return None, True
-    result = optimum(plain.program, wanted.relative_gap, wanted.least_mass, left)
+    result = optimum(plain.program, demand.relative_gap, demand.least_mass, left)
     if isinstance(result, Conflict) or result.timed_out:
         return None, isinstance(result, CertifiedOptimum)
     # what is neither kept nor proven to be out of reach is no optimum

@@ -95,7 +95,7 @@ def limited(objective: Any) -> list[CeilingFields]:
     ]
 
 
-def counted(objective: Any) -> tuple[ResponseFields, ...]:
+def active_responses(objective: Any) -> tuple[ResponseFields, ...]:
     """Force and moment, and of the others those that an objective weighs or limits, by numbers or columns."""
     if len(RESPONSES) == len(PAIR):
         return tuple(RESPONSES.values())

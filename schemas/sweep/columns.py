@@ -3,7 +3,7 @@
 from collections.abc import Iterator, Sequence
 
 from schemas.answer.outputs import COLUMNS_OF_PARTS, OUTPUT_COLUMNS, Column, labels
-from schemas.base.responses import PAIR, counted
+from schemas.base.responses import PAIR, active_responses
 from schemas.base.rules import Path
 from schemas.base.target import Target, pointer
 from schemas.base.variation import with_fields
@@ -165,7 +165,7 @@ def _residual(base: OptimizeRequest | AnalyzeRequest, targets: Sequence[Target])
     """Peaks of force and moment, and of the other responses that count in some design."""
     yield from _RESIDUAL
     weights = {target.path[1:]: 1.0 for target in targets if target.path[0] == "objective"}
-    for response in counted(with_fields(base.objective, weights)) if isinstance(base, OptimizeRequest) else ():
+    for response in active_responses(with_fields(base.objective, weights)) if isinstance(base, OptimizeRequest) else ():
         if response.name not in PAIR:
             meaning = f"peak of the first-order {response.label} with the counterweights"
             yield Column(response.peak, "number", response.unit, meaning)

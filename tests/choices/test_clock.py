@@ -179,13 +179,13 @@ def test_pairs_of_sums_are_compared_by_fewer_at_once_where_they_have_more_terms(
 
 def test_light_sets_are_sought_near_an_optimum_of_few_rows(monkeypatch: pytest.MonkeyPatch) -> None:
     """Over the turn a program has hundreds of terms, and took seconds between two looks at the time."""
-    terms, stages = list[int](), ample.both_stages
+    terms, stages = list[int](), ample.stage_solutions
 
     def counting(statement: Statement, *rest: Any) -> Any:
         terms.append(statement.norms.constant.shape[-1] + statement.ceilings.norms.constant.shape[-1])
         return stages(statement, *rest)
 
-    monkeypatch.setattr(ample, "both_stages", counting)
+    monkeypatch.setattr(ample, "stage_solutions", counting)
     assert ask("twin", ["bending alone", "own masses"]).kind == "answered"
     # a row has three terms at most
     assert 0 < max(terms) <= 2 * 3 * FEW

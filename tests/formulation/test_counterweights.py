@@ -5,7 +5,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from optimizer.formulation.balance_shafts import chosen, design_space, fitted
+from optimizer.formulation.balance_shafts import design_space, fitted, placement_of
 from optimizer.formulation.counterweights import (
     counterweights,
     mass_and_angle,
@@ -174,14 +174,14 @@ def test_webs_of_shafts_that_turn_backwards_stand_for_their_mirror_image(orders:
     assert sector is not None
     assert (sector.centre_deg, sector.half_angle_deg) == (-50.0 if mirrored else 50.0, 20.0)
     mass, angle = np.array([1.0, 2.0, 3.0, 0.0]), np.array([10.0, 310.0, 200.0, 0.0])
-    found = chosen(plan, objective, mass, angle)
+    found = placement_of(plan, objective, mass, angle)
     assert [one.angle_deg for one in found.counterweights] == [10.0]
     assert [[one.angle_deg for one in shaft.counterweights] for shaft in found.balance_shafts] == [
         [50.0 if mirrored else 310.0], [200.0, 0.0],
     ]  # fmt: skip
     assert (found.total_mass_kg, [shaft.total_mass_kg for shaft in found.balance_shafts]) == (1.0, [2.0, 3.0])
     assert found.fields["balance_shafts_mass_kg"] == 5.0
-    assert [one.web for one in found.all_of_them] == ["a", "s", "t", "u"]
+    assert [one.web for one in found.every_weight] == ["a", "s", "t", "u"]
     assert found.on_crank == pytest.approx([_at(1.0, 0.2, 10.0)])
     assert found.on_shafts is not None
     at = 50.0 if mirrored else 310.0

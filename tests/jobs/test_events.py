@@ -52,7 +52,7 @@ def told(jobs: Jobs, ids: list[str]) -> list[bytes]:
     """What each of some streams tells from the first event to its end."""
     found = [b""] * len(ids)
 
-    async def all_of_them() -> None:
+    async def every_weight() -> None:
         watch = Watch(jobs)  # type: ignore[arg-type]
 
         async def stream(number: int, id: str) -> None:  # noqa: A002
@@ -67,7 +67,7 @@ def told(jobs: Jobs, ids: list[str]) -> list[bytes]:
                     streams.start_soon(stream, number, id)
             tasks.cancel_scope.cancel()
 
-    anyio.run(all_of_them)
+    anyio.run(every_weight)
     return found
 
 

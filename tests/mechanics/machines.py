@@ -121,7 +121,7 @@ def _of_curves(curves: TurnCurves) -> list[Any]:
 def _of_response(response: TurnResponse, name: str) -> list[Any]:
     more = np.ones(response.influence.size - len(machine(name).webs)) * 0.3j
     unbalance = np.concatenate([_unbalance(name), more])
-    added = np.atleast_1d(response.added(unbalance, _ANGLES))
+    added = np.atleast_1d(response.contribution(unbalance, _ANGLES))
     return [response.name, response.unit, response.at(_ANGLES), added, response.curves.mean]
 
 

@@ -43,8 +43,8 @@ _PROGRAM: dict[str, str] = {
     "cuts/samples.py supports: abs(circle.radius - before) > _STEADY * circle.radius"
     " -> abs(circle.radius - before) >= _STEADY * circle.radius": _ALIKE,
     "cuts/stage.py run: -np.inf -> +np.inf": "a width takes all that is not finite alike",
-    "cuts/stage.py _wanted: self.levels.counted - self.levels.most + self.margin"
-    " -> self.levels.counted - self.levels.most - self.margin": _STEERS,
+    "cuts/stage.py _gap_limit: self.levels.of_bound - self.levels.most + self.margin"
+    " -> self.levels.of_bound - self.levels.most - self.margin": _STEERS,
     "cuts/stage.py run: 0.0 -> 0.001": _STEERS,
     "methods/cascade.py _under_ceilings: nearest.objective <= -AMPLE -> nearest.objective < -AMPLE": _ALIKE,
     "methods/compiled.py _programs: np.add.reduce(mass, axis=-1, keepdims=True)"

@@ -289,10 +289,10 @@ def _pressing(target: Aim, press: Press, clients: int, begun: Event) -> None:
                 await press(target, number)
             await asyncio.sleep(0.5)
 
-    async def all_of_them() -> None:
+    async def every_weight() -> None:
         await asyncio.gather(*(client(number) for number in range(clients)))
 
-    asyncio.run(all_of_them())
+    asyncio.run(every_weight())
 
 
 def quantile_ms(seconds: list[float], share: float) -> float:

@@ -51,13 +51,13 @@ def test_headers_that_come_too_slowly_end_the_connection(hasty: Service) -> None
                 await asyncio.sleep(0.1)
             return (await answer).status
 
-    async def all_of_them() -> list[int]:
+    async def every_weight() -> list[int]:
         dripping = [asyncio.create_task(drip()) for _ in range(10)]
         await asyncio.sleep(0.5)
         await healthy(hasty)
         return await asyncio.gather(*dripping)
 
-    assert asyncio.run(all_of_them()) == [408] * 10
+    assert asyncio.run(every_weight()) == [408] * 10
 
 
 def test_a_connection_that_says_nothing_is_closed(hasty: Service) -> None:

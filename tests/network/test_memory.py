@@ -31,10 +31,10 @@ async def _swept(target: Service) -> str:
 
 async def _stopped_readers(target: Service, path: str, least_mb: float) -> None:
     """Clients who have begun to read rows, and read no more, until the service holds so much."""
-    async with AsyncExitStack() as all_of_them:
+    async with AsyncExitStack() as every_weight:
         for number in range(_STREAMS):
             address = f"127.0.0.{2 + number % _ADDRESSES}"
-            reader, writer = await all_of_them.enter_async_context(connected(target.port, address))
+            reader, writer = await every_weight.enter_async_context(connected(target.port, address))
             writer.write(request("GET", f"{path}/results?format={_FORMATS[number % len(_FORMATS)]}"))
             await reader.readexactly(100_000)
             writer.transport.pause_reading()

@@ -163,7 +163,7 @@ def test_a_body_may_come_in_pieces() -> None:
 def test_questions_that_come_together_are_answered_in_their_order() -> None:
     """Plain ones and others, in one piece and in pieces that begin anywhere."""
     unusual = asked("/c", b"", "GET", "keep-alive", more="X: \xe9\r\n")
-    all_of_them = b"".join(
+    every_weight = b"".join(
         (
             asked("/a", b"one", connection="keep-alive"),
             asked("/b", b"", "GET", "keep-alive"),
@@ -172,8 +172,8 @@ def test_questions_that_come_together_are_answered_in_their_order() -> None:
             asked("/e"),
         )
     )
-    for size in (len(all_of_them), 100, 37):
-        said = heard(*(all_of_them[at : at + size] for at in range(0, len(all_of_them), size)))
+    for size in (len(every_weight), 100, 37):
+        said = heard(*(every_weight[at : at + size] for at in range(0, len(every_weight), size)))
         heads = [line for line in said.split(b"\r\n") if line.startswith(b"x-path")]
         assert heads == [b"x-path: /" + name for name in (b"a", b"b", b"c", b"d", b"e")], size
 

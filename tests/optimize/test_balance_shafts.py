@@ -7,7 +7,7 @@ import pytest
 from pydantic import ValidationError
 
 from optimizer.analyze import analyze
-from optimizer.formulation.balance_shafts import chosen, fitted
+from optimizer.formulation.balance_shafts import fitted, placement_of
 from schemas.answer.answers import OptimizeAnswer
 from schemas.machine.reciprocating import ReciprocatingMachine
 from schemas.request.objective import Objective
@@ -293,6 +293,6 @@ def test_a_shaft_that_turns_backwards_is_drawn_as_the_mirror_image_of_its_phasor
     """Analytic: its unbalance at shaft angle 0 is the conjugate of what the program of the first order adds up."""
     machine = ReciprocatingMachine.model_validate(single([shaft("one", ratio)]))
     objective = Objective.model_validate({"orders": orders})
-    (there,) = chosen(machine, objective, np.array([1.0, 0.25]), np.array([70.0, 30.0])).balance_shafts
+    (there,) = placement_of(machine, objective, np.array([1.0, 0.25]), np.array([70.0, 30.0])).balance_shafts
     assert there.counterweights[0].angle_deg == pytest.approx(drawn, abs=1e-12)
     assert there.counterweights[0].mass_kg == 0.25

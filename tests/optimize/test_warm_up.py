@@ -73,7 +73,7 @@ def test_what_is_compiled_is_what_answers_need() -> None:
         values: ("values",),
         settling: ("rebalance", "settle"),
         symmetries: ("means",),
-        outlines: ("worst_scaled", "worst_turned"),
+        outlines: ("worst_scaled", "worst_rotation"),
         cancelling: ("least_changes", "least_changes_of_real"),
         disc_forms: ("forms", "pairs", "scales"),
         entry: ("_over_turn",),

@@ -23,7 +23,7 @@ def mass_bound(program: Statement, multipliers: Multipliers, target: float) -> f
     """As ``mass_lower_bound``, likewise."""
     row, term, ceiling = _admissible(program, multipliers)
     charge = float(np.sum(row[program.group == 0])) * target
-    return max(_lowest(program, row, term, ceiling, program.ceilings.counted, 1.0) - charge, 0.0)
+    return max(_lowest(program, row, term, ceiling, program.ceilings.tolerant_cap, 1.0) - charge, 0.0)
 
 
 def size_of_slopes(program: Statement, multipliers: Multipliers) -> Real:

@@ -91,10 +91,10 @@ def _rounded(kind: str) -> list[Any]:
     bound = objective_lower_bound(one, proof)
     free = replace(one, norms=replace(one.norms, influence=0.0 * one.norms.influence))
     mass = mass_lower_bound(free, proof, np.asarray(1.0))
-    exact = certificate._minorants(one, proof, counted=False, normal=True)
+    exact = certificate._minorants(one, proof, with_tolerance=False, normal=True)
     # limits that are far away, beside which slopes are summed in finer numbers
     distant = replace(one, limits=replace(one.limits, max_mass=2.0**40 * ones, max_total_mass=np.asarray(np.inf)))
-    finer = certificate._minorants(distant, proof, counted=False, normal=True)
+    finer = certificate._minorants(distant, proof, with_tolerance=False, normal=True)
     # of ceilings, whose numbers are no powers, the rounding of the sum itself would be all
     rounded = [] if "ceiling" in kind else [(each - np.rint(each)) / _EPS for each in (bound, exact.constant)]
     return [
@@ -133,7 +133,7 @@ def _settled(kind: str) -> list[Any]:
     u = limits.into(size * turn)
     points = points_at(program, u)
     worse = 1.1 * points.objective
-    found = [rounding.settled(program, points, target, bound) for target in (points.objective, worse)
+    found = [rounding.snap_to_limits(program, points, target, bound) for target in (points.objective, worse)
              for bound in (None, 0.9 * points.mass)]  # fmt: skip
     return [found, rounding.has_dust(limits, u)]
 
@@ -258,7 +258,7 @@ def _proven(name: str) -> list[Any]:
     penalty = under_levels(begun, program, 0.8 * rest.goals[:-1], 0.1, 3.0)
     known = [begun.norms, begun.floor, begun.group, begun.ceilings.cap, begun.ceilings.size, program.units]
     values = program.values(u, 1e-9)
-    seen, _ = program.seen(u, np.zeros(len(program.quantities)))
+    seen, _ = program.sample_values(u, np.zeros(len(program.quantities)))
     return [
         known, rest.goals, _of_proof(resting_proof(program, program.first, begun)), proven, penalty.floor,
         penalty.norms, values.goals, values.excess, values.over_budget, seen.goals,

@@ -127,7 +127,7 @@ def test_a_bound_on_the_mass_is_its_minorant_at_a_target(kind: str) -> None:
     fixed = np.sum(usable.row * program.floor) + np.sum((np.conj(usable.term) * norms.constant).real)
     slope = np.sum(np.conj(norms.influence) * usable.term[:, None], axis=0)
     fixed += np.sum(
-        (np.conj(usable.ceiling) * ceilings.norms.constant).real - np.abs(usable.ceiling) * ceilings.counted
+        (np.conj(usable.ceiling) * ceilings.norms.constant).real - np.abs(usable.ceiling) * ceilings.tolerant_cap
     )
     slope = slope + np.sum(np.conj(ceilings.norms.influence) * usable.ceiling[:, None], axis=0)
     wide = norms.scatter * np.sum(usable.row[program.row][:, None] * np.abs(norms.influence), axis=0)

@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from optimizer.program.methods.compiled import both_stages
+from optimizer.program.methods.compiled import stage_solutions
 from optimizer.program.methods.optima import optima
 from optimizer.program.reference.solver import smallest_objective
 from optimizer.program.solution import INTERIOR_POINT
@@ -43,7 +43,7 @@ def test_the_first_stage_ends_far_below_what_optima_may_differ_by(combine: str) 
     """Regression: 1e-6 of the share of an optimum where it were 0.1, in most of these programs."""
     problems = stacked([budgeted(seed, 3e-3, False, combine) for seed in _SEEDS])
     share = GAP * np.asarray(yardstick(problems))
-    found = both_stages(problems, share, share, True)
+    found = stage_solutions(problems, share, share, True)
     assert found.certified.all()
     first = problems.objective(found.smallest)
     assert np.max((first - found.lower_bound) / share) < 1e-4

@@ -13,7 +13,7 @@ from optimizer.outputs.registry import prepare
 from optimizer.program.ceilings import CEILING_TOLERANCE
 from optimizer.program.kernel import discs, interior_point
 from optimizer.program.kernel.finer_numbers import EXTENDED, FIFTY_DIGITS, finest
-from optimizer.program.methods.compiled import BothStages, both_stages
+from optimizer.program.methods.compiled import StageSolutions, stage_solutions
 from optimizer.program.methods.optima import optima
 from optimizer.program.reference.solver import smallest_objective
 from optimizer.program.solution import CLOSED_FORM, CONE_PROGRAM, INTERIOR_POINT, ConeSolution
@@ -41,10 +41,10 @@ def share(problem: Statement) -> np.ndarray:
     return 1e-6 * np.atleast_1d(yardstick(problem))
 
 
-def run(problem: Statement, least_mass: bool = True) -> BothStages:
+def run(problem: Statement, least_mass: bool = True) -> StageSolutions:
     """A batch, or one program as a batch of one."""
     many = problem if problem.floor.ndim == 2 else problem.alone()
-    return both_stages(many, share(many), share(many), least_mass)
+    return stage_solutions(many, share(many), share(many), least_mass)
 
 
 def formulated(case: Case) -> tuple[Statement, float]:
@@ -54,9 +54,9 @@ def formulated(case: Case) -> tuple[Statement, float]:
     return cone_program(request.machine, request.objective, scene.responses, scene.omega_squared), scene.omega_squared
 
 
-def same(one: BothStages, n: int, other: BothStages, m: int) -> bool:
+def same(one: StageSolutions, n: int, other: StageSolutions, m: int) -> bool:
     """Whether all figures but the times agree to the last bit."""
-    names = {field.name for field in fields(BothStages)} - {"certify_s", "multipliers", "mass_multipliers"}
+    names = {field.name for field in fields(StageSolutions)} - {"certify_s", "multipliers", "mass_multipliers"}
     return all(np.array_equal(getattr(one, name)[n], getattr(other, name)[m]) for name in names)
 
 
@@ -144,8 +144,8 @@ def test_fifty_digits_prove_what_double_precision_cannot(limit: str) -> None:
     expected = _KNOWN[stored.digest(_HARD[name].body)]
     alone = problem.alone()
     double, fifty = (
-        both_stages(alone, share(alone), share(alone), True),
-        both_stages(alone, share(alone), share(alone), True, FIFTY_DIGITS),
+        stage_solutions(alone, share(alone), share(alone), True),
+        stage_solutions(alone, share(alone), share(alone), True, FIFTY_DIGITS),
     )
     unit = float(yardstick(problem))
     assert expected.objective is not None
@@ -159,9 +159,9 @@ def test_finer_numbers_solve_the_same_program(case: tuple) -> None:
     """Property: interpreted in other numbers the functions are the same, and the bound is at least as sharp."""
     problem = random_statement(7, *case, webs=2)
     alone, unit = problem.alone(), float(yardstick(problem))
-    double = both_stages(alone, share(alone), share(alone), False)
+    double = stage_solutions(alone, share(alone), share(alone), False)
     for precision in (EXTENDED, FIFTY_DIGITS):
-        finer = both_stages(alone, share(alone), share(alone), False, precision)
+        finer = stage_solutions(alone, share(alone), share(alone), False, precision)
         assert finer.certified[0]
         first, gap = double.objective[0] - double.lower_bound[0], finer.objective[0] - finer.lower_bound[0]
         assert abs(finer.objective[0] - double.objective[0]) <= first + gap
@@ -195,15 +195,15 @@ def test_uncertified_rows_are_solved_by_the_cone_program(monkeypatch: pytest.Mon
     from optimizer.program.methods import optima as entry
     from optimizer.program.methods import single
 
-    def doubtful(*arguments: object) -> BothStages:
-        found = both_stages(*arguments)  # type: ignore[arg-type]
+    def doubtful(*arguments: object) -> StageSolutions:
+        found = stage_solutions(*arguments)  # type: ignore[arg-type]
         doubt = np.arange(found.certified.size) == min(1, found.certified.size - 1)
         # nothing but rest, or polishing would do
         smallest, unbalance = (np.where(doubt[:, None], 0.0, u) for u in (found.smallest, found.unbalance))
         return replace(found, certified=found.certified & ~doubt, smallest=smallest, unbalance=unbalance)
 
-    monkeypatch.setattr(entry, "both_stages", doubtful)
-    monkeypatch.setattr(single, "both_stages", doubtful)
+    monkeypatch.setattr(entry, "stage_solutions", doubtful)
+    monkeypatch.setattr(single, "stage_solutions", doubtful)
     problems = stacked([random_statement(seed, "sum", (1.0, 0.3), False, False, False, webs=WEBS) for seed in range(3)])
     found = optima(problems, 1e-6, True)
     assert list(found.method) == [INTERIOR_POINT, CONE_PROGRAM, INTERIOR_POINT]
@@ -279,12 +279,14 @@ def test_a_budget_of_zero_beside_one_of_more() -> None:
     """Analytic: nothing is fitted where nothing may be, and a batch with such a program has no other answers."""
     problem = _pair()
     total = np.array([0.0, 1.0])
-    found = both_stages(
+    found = stage_solutions(
         replace(problem, limits=replace(problem.limits, max_total_mass=total)), np.full(2, 1e-3), np.full(2, 1e-3), True
     )
     assert np.all(found.unbalance[0] == 0.0)
     alone = replace(problem, limits=replace(problem.limits, max_total_mass=np.ones(2)))
-    assert np.array_equal(found.unbalance[1], both_stages(alone, np.full(2, 1e-3), np.full(2, 1e-3), True).unbalance[1])
+    assert np.array_equal(
+        found.unbalance[1], stage_solutions(alone, np.full(2, 1e-3), np.full(2, 1e-3), True).unbalance[1]
+    )
 
 
 def _signatures() -> list[list[object]]:
@@ -342,7 +344,7 @@ def test_what_is_not_a_number_is_not_certified_and_spoils_no_other(part: str) ->
     values = getattr(problem.norms, part).copy()
     values[0] = np.nan
     spoilt = replace(problem, norms=replace(problem.norms, **{part: values}))
-    bad = both_stages(spoilt, share(problem), share(problem), True)
+    bad = stage_solutions(spoilt, share(problem), share(problem), True)
     assert list(bad.certified) == [False, True]
     assert same(bad, 1, good, 1)
 

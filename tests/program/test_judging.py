@@ -11,7 +11,7 @@ from optimizer.numerics.arrays import Complex
 from optimizer.program.ceilings import CEILING_TOLERANCE
 from optimizer.program.certificate import Multipliers, best_proof, mass_lower_bound
 from optimizer.program.compiled_evaluation import Shares
-from optimizer.program.methods.rounding import HEAVIER, RUNGS, has_dust, settled
+from optimizer.program.methods.rounding import HEAVIER, RUNGS, has_dust, snap_to_limits
 from optimizer.program.multipliers import resting_multipliers
 from optimizer.program.points import Points, points_at
 from optimizer.program.solution import CEILING_ROUNDING
@@ -52,7 +52,7 @@ def _one_by_one(
         certified = certified and best.excess <= CEILING_ROUNDING
         certified = certified and chosen.mass - bound <= SHARES.mass_enough * chosen.mass
     most = target if of_mass is not None else lower + SHARES.enough * share
-    final: Points = settled(one, chosen, most, bound if of_mass is not None else None)
+    final: Points = snap_to_limits(one, chosen, most, bound if of_mass is not None else None)
     clean = ~has_dust(one.limits, final.unbalance)
     return [best.unbalance, *final, *proof.parts, lower, bound, counted, np.array([certified]).reshape(1), clean]
 

@@ -115,7 +115,7 @@ FUNCTIONS: dict[str, Function] = {
     ],
     "excess": lambda program, u, _: [
         program.ceilings.excess(u)[..., : max(1, len(program.ceilings.names))], points_at(program, u).excess,
-        program.ceilings.counted, program.ceilings.raised(0.1).cap,
+        program.ceilings.tolerant_cap, program.ceilings.raised(0.1).cap,
     ],
     "certificate": _certified,
     "verdict": _claimed,

@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 
 from optimizer.numerics.arrays import Complex, mapped
 from optimizer.program.certificate import Multipliers, mass_lower_bound, objective_lower_bound
-from optimizer.program.methods.rounding import settled
+from optimizer.program.methods.rounding import snap_to_limits
 from optimizer.program.norms import Norms
 from optimizer.program.points import points_at
 from optimizer.program.statement import Statement
@@ -124,7 +124,7 @@ def test_loops_settle_what_arrays_settle(seed: int, kind: Any) -> None:
     alone = asked.alone()
     free = replace(alone, ceilings=replace(alone.ceilings, cap=alone.ceilings.cap + 1e9))
     # whatever it comes to, it is taken
-    found = settled(free, points_at(free, u[None]), np.array([1e9]), np.array([1e9]))
+    found = snap_to_limits(free, points_at(free, u[None]), np.array([1e9]), np.array([1e9]))
     np.testing.assert_allclose(found.unbalance[0], expected, rtol=1e-8, atol=1e-9)
 
 

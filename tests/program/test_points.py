@@ -89,7 +89,7 @@ def test_the_better_of_two_proofs_goes_with_a_point() -> None:
     assert (heavier.mass_lower_bound, heavier.mass_multipliers, heavier.mass_target) == (0.5, proof, 9.0)
     assert heavier.weighed(0.5, none, 1.0) is heavier
     assert heavier.weighed(np.nan, none, 1.0) is heavier
-    moved = heavier.moved_to(program, np.zeros(WEBS, complex))
+    moved = heavier.with_point(program, np.zeros(WEBS, complex))
     assert (moved.mass, moved.lower_bound, moved.mass_lower_bound) == (0.0, 3.0, 0.5)
     assert moved.objective == pytest.approx(float(program.at_rest))
 

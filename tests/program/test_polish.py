@@ -23,5 +23,5 @@ def test_what_is_good_enough_is_certified_and_what_is_not_is_not(seed: int, leas
     assert again.smallest.gap <= found.smallest.gap
     assert again.lightest.mass <= found.lightest.mass
     # at rest nothing is as small as can be
-    rest = found.smallest.moved_to(program, np.zeros(4, complex))
+    rest = found.smallest.with_point(program, np.zeros(4, complex))
     assert not polished(program, target, StagePair(rest, rest, False), None).certified

@@ -14,7 +14,7 @@ from optimizer.program.kernel import disc_matrix, disc_peaks, disc_starts, disc_
 from optimizer.program.kernel.finer_numbers import interpreted
 from optimizer.program.limits import Limits
 from optimizer.program.methods import compiled
-from optimizer.program.methods.compiled import BothStages, both_stages
+from optimizer.program.methods.compiled import StageSolutions, stage_solutions
 from optimizer.program.methods.disc_programs import disc_stages, discs_of, suits_discs
 from optimizer.program.methods.optima import optima
 from optimizer.program.reference.solver import smallest_objective
@@ -32,7 +32,7 @@ def share(problem: Statement) -> np.ndarray:
     return 1e-6 * np.atleast_1d(yardstick(problem))
 
 
-def in_discs(problem: Statement) -> BothStages:
+def in_discs(problem: Statement) -> StageSolutions:
     """Without help: of what is not proven nothing is certified."""
     part = share(problem)
     solved = compiled._solve(problem, part, True, compiled._DOUBLE, disc_stages)
@@ -45,7 +45,7 @@ def test_both_methods_and_clarabel_find_the_same_optimum(seed: int, case: tuple)
     problem = random_statement(seed, *case).alone()
     assert suits_discs(problem).all()
     part, unit = share(problem), float(yardstick(problem)[0])
-    quick, other = in_discs(problem), compiled._in_any_limits(problem, part, part, True, np.zeros(1))
+    quick, other = in_discs(problem), compiled._general(problem, part, part, True, np.zeros(1))
     reference = smallest_objective(problem.subset(0), 1e-10 * unit)
     room = (1e-12 + 2e-8 * bool(problem.ceilings.names)) * unit
     assert quick.lower_bound[0] <= reference.objective + room
@@ -76,7 +76,7 @@ def test_no_answer_is_worse_for_the_method_for_discs(case: tuple) -> None:
     """Metamorphic: what the method for any limits certifies by itself is certified."""
     batch = _batch(case)
     part = share(batch)
-    found, other = both_stages(batch, part, part, True), compiled._in_any_limits(batch, part, part, True, 0.0 * part)
+    found, other = stage_solutions(batch, part, part, True), compiled._general(batch, part, part, True, 0.0 * part)
     assert not np.any(other.certified & ~found.certified)
 
 
@@ -133,7 +133,7 @@ def test_a_budget_of_nothing_leaves_nothing() -> None:
     """Analytic: beside programs that have one, which it does not disturb."""
     rest = single(30.0, 180.0, 50.0, 5.0)
     nothing = replace(rest, limits=replace(rest.limits, max_total_mass=np.asarray(0.0)))
-    both = both_stages(stacked([nothing, rest]), *[share(rest).repeat(2)] * 2, True)
+    both = stage_solutions(stacked([nothing, rest]), *[share(rest).repeat(2)] * 2, True)
     alone = in_discs(rest.alone())
     assert both.objective.tolist() == [20.0, alone.objective[0]]
     assert both.mass[0] == 0.0
@@ -184,7 +184,7 @@ def test_ceilings_that_no_optimum_meets_change_nothing(case: tuple) -> None:
     far = replace(problem, ceilings=replace(problem.ceilings, cap=problem.ceilings.cap + 1e6 * problem.ceilings.size))
     part, without = share(none), in_discs(none)
     cap = np.where(np.arange(12)[:, None] % 2 == 0, far.ceilings.cap, problem.ceilings.cap)
-    both = both_stages(replace(problem, ceilings=replace(problem.ceilings, cap=cap)), part, part, True)
+    both = stage_solutions(replace(problem, ceilings=replace(problem.ceilings, cap=cap)), part, part, True)
     alike = without.certified & (np.arange(12) % 2 == 0)
     assert np.count_nonzero(alike) > 1
     np.testing.assert_allclose(both.objective[alike], without.objective[alike], rtol=1e-6)

@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 
 from optimizer.numerics.arrays import Complex
 from optimizer.program.limits import Limits
-from optimizer.program.methods.rounding import settled
+from optimizer.program.methods.rounding import snap_to_limits
 from optimizer.program.points import points_at
 from optimizer.program.rows import combined, statement, weighted_peak
 from optimizer.program.solution import ConeSolution
@@ -42,7 +42,7 @@ def once(program: Statement, u: Complex, target: float | None = None, mass_bound
     alone = program.alone()
     points = points_at(alone, u[None].astype(complex))
     most = points.objective if target is None else np.array([target])
-    return settled(alone, points, most, None if mass_bound is None else np.array([mass_bound])).unbalance[0]
+    return snap_to_limits(alone, points, most, None if mass_bound is None else np.array([mass_bound])).unbalance[0]
 
 
 def test_dust_goes_and_the_others_make_up_for_it() -> None:
@@ -109,7 +109,7 @@ def test_none_knows_its_neighbours(seeds: list[int]) -> None:
     programs = [random_statement(seed, "sum", (1.0, 1.0), True, False, False, webs=5) for seed in seeds]
     many, rng = stacked(programs), np.random.default_rng(seeds)
     u = many.limits.into(many.limits.reach * rng.choice([1e-9, 0.3, 0.5, 1.0], (len(seeds), 5)) * np.exp(2j))
-    together = settled(many, points_at(many, u), 1.1 * many.objective(u), None).unbalance
+    together = snap_to_limits(many, points_at(many, u), 1.1 * many.objective(u), None).unbalance
     for n, program in enumerate(programs):
         np.testing.assert_array_equal(once(program, u[n], 1.1 * float(program.objective(u[n]))), together[n])
 

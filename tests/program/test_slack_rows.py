@@ -11,7 +11,7 @@ from optimizer.formulation.task import Task
 from optimizer.mechanics.inertia import reciprocating, rotating
 from optimizer.mechanics.layout import layout
 from optimizer.program.certificate import mass_lower_bound, objective_lower_bound
-from optimizer.program.methods.compiled import both_stages
+from optimizer.program.methods.compiled import stage_solutions
 from optimizer.program.methods.inactive_rows import settle_without_slack_rows
 from optimizer.program.solution import INTERIOR_POINT
 from optimizer.program.verdict import yardstick
@@ -60,7 +60,7 @@ def test_least_masses_of_even_layouts_are_proven_without_another_solver(most: fl
     # the same program as both stages leave it: some of its masses are not proven
     program = cone_program(request.machine, request.objective, asked, square)
     share = 1e-6 * yardstick(program)
-    found = both_stages(program, share, share, True)
+    found = stage_solutions(program, share, share, True)
     left = np.flatnonzero(~found.certified)
     assert left.size
     low = found.mass_lower_bound[left].copy()

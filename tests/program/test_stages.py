@@ -67,7 +67,7 @@ def test_values_are_what_goals_and_ceilings_are(share: float) -> None:
     assert found.over == pytest.approx([(peak[2] - 1.7) / size], abs=1e-5)
     assert found.excess == found.over[0]
     assert found.over_budget == -1.0
-    seen, places = program.seen(u, np.full(4, np.inf))
+    seen, places = program.sample_values(u, np.full(4, np.inf))
     assert np.all(seen.goals <= found.goals * (1.0 + 1e-12))
     assert seen.goals == pytest.approx(expected, rel=1e-5)
     assert [len(each) for each in places] == [1] * 4
@@ -116,10 +116,10 @@ def test_points_are_moved_inside_just_so_far() -> None:
     search, inside = _search(program, 1.2 * rest)
     near, far = (size * random_point(np.random.default_rng(5), program.limits) for size in (1e-4, 0.02))
     point = search._evaluated(near, 1e-12)
-    assert search._moved(point, inside) is point
+    assert search._interior_step(point, inside) is point
     beyond = search._evaluated(far, 1e-12)
     assert np.any(search._excess(beyond.values) > 0.0)
-    moved = search._moved(beyond, inside)
+    moved = search._interior_step(beyond, inside)
     assert np.all(search._excess(moved.values) <= 0.0)
     share = np.abs(moved.unbalance[0]) / np.abs(far[0])
     assert 0.0 < share < 1.0
@@ -150,7 +150,7 @@ def test_widths_and_gaps_that_are_wanted_are_shares_of_what_is_asked() -> None:
     assert (search.of_mass, search.free) == (False, False)
     size = program.units
     kept = 1e-9 / float(size[0])
-    assert search._wanted(0.3, inside) == 0.3
+    assert search._gap_limit(0.3, inside) == 0.3
     assert search._width(1e-9, np.inf) == pytest.approx(0.1 * min(kept, 1e-9 / float(size[-1])))
     assert search._width(1e-12, 1.0) == pytest.approx(0.1 * min(kept, 0.1 / float(size[-1])))
     search.price = np.array([2.0])

@@ -32,7 +32,9 @@ def test_peaks_are_those_of_a_fine_grid(seed: int, axis: str, sense: float) -> N
             assert found.lower[0] <= found.upper[0] <= found.lower[0] * (1.0 + 2e-9)
             assert np.max(values) <= found.upper[0] * (1.0 + 1e-12)
             assert found.lower[0] == pytest.approx(np.max(values), rel=1e-6)
-            assert abs((along.at(found.angle) + along.added(u, found.angle))[0].real) == pytest.approx(found.lower[0])
+            assert abs((along.at(found.angle) + along.contribution(u, found.angle))[0].real) == pytest.approx(
+                found.lower[0]
+            )
 
 
 def test_mean_squares_are_those_of_a_fine_grid() -> None:

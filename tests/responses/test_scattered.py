@@ -59,13 +59,15 @@ def test_no_corner_is_worse_and_one_is_as_bad(name: str, gas: bool, shaft: str, 
     u = size * (rng.normal(size=count) + 1j * rng.normal(size=count))
     worst = peaks_astray(responses, [share] * len(responses), u, np.full(len(responses), 1e-6))
     for response, angle, value, lower, upper in zip(responses, *worst, strict=True):
-        at_steps = np.abs(_corners(response, _STEPS, share) + response.added(u, _STEPS))
+        at_steps = np.abs(_corners(response, _STEPS, share) + response.contribution(u, _STEPS))
         assert np.max(at_steps) <= upper
         assert lower <= upper <= lower * (1.0 + 1e-6) + 1e-12
         beside = np.array([angle - 1e-9, angle, angle + 1e-9])  # at a jump one of its limits
         apart = np.min(np.abs(_corners(response, beside, share) - value))
         assert apart <= 1e-6 * upper
-        assert abs(value + np.ravel(response.added(u, beside[1:2]))[0]) == pytest.approx(lower, rel=1e-9, abs=1e-12)
+        assert abs(value + np.ravel(response.contribution(u, beside[1:2]))[0]) == pytest.approx(
+            lower, rel=1e-9, abs=1e-12
+        )
 
 
 @pytest.mark.parametrize("share", [0.02, 0.3])
@@ -104,7 +106,7 @@ def test_sixteen_rows_that_may_be_anything_are_bracketed() -> None:
     for response, upper in zip(responses, worst.upper, strict=True):
         signs = rng.choice((-1.0, 1.0), size=(200, 16))
         parts = response.curves.parts.at(response.number, _STEPS)
-        assert np.max(np.abs(response.at(_STEPS) + response.added(u, _STEPS) + signs @ parts.T)) <= upper
+        assert np.max(np.abs(response.at(_STEPS) + response.contribution(u, _STEPS) + signs @ parts.T)) <= upper
 
 
 @pytest.mark.parametrize("most", [1, 5_000, 20_000])

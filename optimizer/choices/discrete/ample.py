@@ -18,7 +18,7 @@ from optimizer.choices.discrete.neighbourhoods import light_options, near_option
 from optimizer.choices.discrete.options import Incumbent, Options
 from optimizer.choices.discrete.part_sizes import PartSizes
 from optimizer.numerics.arrays import Complex
-from optimizer.program.methods.compiled import both_stages, suits_kernel
+from optimizer.program.methods.compiled import stage_solutions, suits_kernel
 from optimizer.program.solution import OPTIMUM_SHARE
 from optimizer.program.statement import Statement
 
@@ -108,5 +108,5 @@ def _lightest(statement: Statement, relaxed: Complex) -> Complex:
     if not suits_kernel(statement) or not statement.at_rest > 0:
         return relaxed
     share = np.array([OPTIMUM_SHARE * float(statement.at_rest)])
-    stages = both_stages(statement.alone(), share, share, True)
+    stages = stage_solutions(statement.alone(), share, share, True)
     return stages.unbalance[0] if stages.certified[0] else relaxed

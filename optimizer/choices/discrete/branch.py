@@ -21,7 +21,7 @@ from optimizer.numerics.arrays import Complex, Real
 from optimizer.numerics.memoization import cached_property
 from optimizer.numerics.records import record
 from optimizer.program.certificate import Multipliers
-from optimizer.program.methods.compiled import both_stages, suits_kernel
+from optimizer.program.methods.compiled import stage_solutions, suits_kernel
 from optimizer.program.statement import Statement
 
 #: nodes bounded at once, and options of all of them together
@@ -192,7 +192,7 @@ class Work:
             # over a revolution the shafts that turn faster are at other angles than the crankshaft
             near, multipliers, nowhere = solved(program, None, np.full(count, 1e-9), np.zeros(count), False, clock)
             return on_first(self.options, base + near), multipliers, nowhere
-        relaxation = both_stages(program, np.full(count, 1e-9), np.zeros(count), False)
+        relaxation = stage_solutions(program, np.full(count, 1e-9), np.zeros(count), False)
         near = on_first(self.options, np.nan_to_num(base + relaxation.smallest))
         return near, relaxation.multipliers, np.zeros(count, bool)
 

@@ -31,15 +31,15 @@ class Brackets:
         self._quantities, self._cancelled, self._scatter = quantities, cancelled, scatter
         self._recent: list[tuple[Complex, dict[int, Evaluation]]] = []
 
-    def evaluate(self, u: Complex, tolerance: Real, chosen: Sequence[int] | None = None) -> tuple[Evaluation, ...]:
+    def evaluate(self, u: Complex, tolerance: Real, selection: Sequence[int] | None = None) -> tuple[Evaluation, ...]:
         """What quantities come to with an unbalance (K,) kg m.
 
         Parameters
         ----------
         tolerance : (quantities,) of upper - lower, relative to lower.
-        chosen : which, by default all.
+        selection : which, by default all.
         """
-        numbers = range(len(self._quantities)) if chosen is None else chosen
+        numbers = range(len(self._quantities)) if selection is None else selection
         results: dict[int, Evaluation] = {}
         near_by = _NEAR * np.maximum.reduce(np.abs(u), initial=0.0) if self._recent else 0.0
         for at, evaluations in reversed(self._recent):
@@ -53,10 +53,10 @@ class Brackets:
                     for q, evaluation in near.items()
                     if evaluation.upper - evaluation.lower <= tolerance[q] * evaluation.lower
                 }
-        sought = [q for q in numbers if q not in results]
-        if sought:
+        missing = [q for q in numbers if q not in results]
+        if missing:
             # half, so that rounding and what is near leave them as narrow as asked
-            new = dict(zip(sought, self._bracketed(u, 0.5 * tolerance, sought), strict=True))
+            new = dict(zip(missing, self._evaluations(u, 0.5 * tolerance, missing), strict=True))
             self._recent = [*self._recent[1 - _REMEMBERED :], (u, new)]
             results |= new
         return tuple(results[q] for q in numbers)
@@ -66,11 +66,11 @@ class Brackets:
         off = float(influence @ change) * (1.0 + self._scatter.share)
         return Evaluation(reached.lower - off, reached.upper + off, reached.cut)
 
-    def _bracketed(self, u: Complex, tolerance: Real, chosen: list[int]) -> tuple[Evaluation, ...]:
+    def _evaluations(self, u: Complex, tolerance: Real, numbers: list[int]) -> tuple[Evaluation, ...]:
         quantities, scatter = self._quantities, self._scatter
         results: dict[int, Evaluation] = {}
         peak: list[int] = []
-        for q in chosen:
+        for q in numbers:
             # a curve of rounding has the peak of what is added to it, at once where that stands still
             if quantities[q].measure == "rms":
                 results[q] = quantities[q].rms(u, scatter)
@@ -81,14 +81,14 @@ class Brackets:
                 peak.append(q)
         scattered = [q for q in peak if quantities[q].masses > 0.0]
         exact = [q for q in peak if not quantities[q].masses > 0.0]
-        for some in (scattered, exact):
-            if some:
-                responses = [quantities[q].response for q in some]
+        for group in (scattered, exact):
+            if group:
+                responses = [quantities[q].response for q in group]
                 bracket = (
-                    peaks(responses, u, tolerance[some])
-                    if some is exact
-                    else peaks_astray(responses, [quantities[q].masses for q in some], u, tolerance[some])
+                    peaks(responses, u, tolerance[group])
+                    if group is exact
+                    else peaks_astray(responses, [quantities[q].masses for q in group], u, tolerance[group])
                 )
-                for q, angle, value, lower, upper in zip(some, *(part.tolist() for part in bracket), strict=True):
+                for q, angle, value, lower, upper in zip(group, *(part.tolist() for part in bracket), strict=True):
                     results[q] = quantities[q].peak(u, scatter, lower, upper, quantities[q].cut(angle, value))
-        return tuple(results[q] for q in chosen)
+        return tuple(results[q] for q in numbers)

@@ -108,8 +108,8 @@ class Quantity:
         for n in np.unique(np.abs(turning)):
             share = np.where(turning == n, 0.5, 0.0) + np.where(turning == -n, 0.5, 0.0)
             for quarter in (1.0, 1.0j) if n else (1.0,):
-                turned = np.where(turning < 0, np.conj(quarter), quarter)
-                cuts.append(Cut(0j, share * turned * influence, -largest, scalar=True))
+                phase = np.where(turning < 0, np.conj(quarter), quarter)
+                cuts.append(Cut(0j, share * phase * influence, -largest, scalar=True))
         return tuple(cuts)
 
     def peak(self, u: Complex, scatter: Scatter, lower: float, upper: float, cut: Cut) -> Evaluation:
@@ -123,9 +123,9 @@ class Quantity:
         Both are off by no more than is known of mean and variance.
         """
         mean, influence = self.response.mean, self.response.influence
-        moved = abs(mean + self.response.offset(u)) + scatter.of(influence, u)
-        value = float(np.hypot(moved, self.spread))
-        along, across = (moved / value, self.spread / value) if value > 0 else (1.0, 0.0)
+        along_mean = abs(mean + self.response.offset(u)) + scatter.of(influence, u)
+        value = float(np.hypot(along_mean, self.spread))
+        along, across = (along_mean / value, self.spread / value) if value > 0 else (1.0, 0.0)
         off = self.response.rms_error
         cut = Cut(along * mean, along * influence, across * self.spread - off, share=along)
         return Evaluation(value - off, value + off, cut)

@@ -11,7 +11,7 @@ import numpy as np
 from optimizer.numerics.arrays import Real
 from optimizer.numerics.records import record
 from optimizer.program.cuts.cut import Pool
-from optimizer.program.cuts.rounding import settled_turn
+from optimizer.program.cuts.rounding import snap_turn_to_limits
 from optimizer.program.cuts.semi_infinite import Problem
 from optimizer.program.cuts.stage import Levels, Point, Search
 from optimizer.program.methods.rounding import dust
@@ -75,7 +75,7 @@ class EmptyWebs:
         if candidate is start or candidate.mass >= start.mass:
             return None
         statement = replace(self.statement, limits=bare.limits)
-        candidate = settled_turn(bare, statement, candidate, self.most, self.mass_bound, self.width)
+        candidate = snap_turn_to_limits(bare, statement, candidate, self.most, self.mass_bound, self.width)
         close = bool(np.all(candidate.values.goals <= np.maximum(self.most, point.values.goals)))
         compliance = candidate.values.excess <= max(point.values.excess, CEILING_ROUNDING)
         heaviest = np.inf if self.mass_bound is None else self.mass_bound / (1.0 - _HEAVIER)

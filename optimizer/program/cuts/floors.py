@@ -38,9 +38,9 @@ def floor_multipliers(program: Problem, cuts: Cuts, statement: Statement) -> Mul
             row[place] = 1.0
             continue
         circle = circles[quantity]
-        held = place + circle.support
-        row[held] = circle.weights
+        support = place + circle.support
+        row[support] = circle.weights
         if circle.radius > 0.0:
             outward = (points[quantity][circle.support] - circle.centre) / circle.radius
-            term[first_term[held]] = circle.weights * outward
+            term[first_term[support]] = circle.weights * outward
     return Multipliers(term, row, np.zeros_like(statement.ceilings.norms.constant))

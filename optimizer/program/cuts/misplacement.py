@@ -92,12 +92,12 @@ def _sharper(program: Problem, u: Complex, kinds: Sequence[tuple[_Kind, int]]) -
     responses, offsets, of = [], [], []
     for n, ((_, _, corners), q) in enumerate(kinds):
         response = program.quantities[q].response
-        added = response.influence * u
-        some = corners(added[added != 0])
-        some = response.offset(u) + (some if some.size else np.zeros(1, complex))
-        responses += [response] * some.size
-        offsets.append(some)
-        of += [n] * some.size
+        contributions = response.influence * u
+        shifts = corners(contributions[contributions != 0])
+        shifts = response.offset(u) + (shifts if shifts.size else np.zeros(1, complex))
+        responses += [response] * shifts.size
+        offsets.append(shifts)
+        of += [n] * shifts.size
     yield from peaks_about(responses, np.concatenate(offsets), _WIDTH, np.array(of)).upper.tolist()
 
 

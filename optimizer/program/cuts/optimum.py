@@ -12,7 +12,7 @@ from optimizer.numerics.records import record
 from optimizer.program.cuts.cut import Pool
 from optimizer.program.cuts.empty_webs import EmptyWebs
 from optimizer.program.cuts.proof import Proof, times
-from optimizer.program.cuts.rounding import settled_turn
+from optimizer.program.cuts.rounding import snap_turn_to_limits
 from optimizer.program.cuts.semi_infinite import Problem
 from optimizer.program.cuts.stage import Levels, Point, Search, StageEnd
 from optimizer.program.limits import Limits
@@ -169,18 +169,18 @@ def over_turn(
     # a little is kept for the rounding of masses and angles
     share = (1.0 - _RESERVE) * min(OPTIMUM_SHARE, relative_gap) * size
     proof: Proof | None = None
-    tried: list[CertifiedOptimum] = []
+    attempts: list[CertifiedOptimum] = []
     for sharpness in _SHARPNESS:
         proof = course.smallest(last, sharpness * share, proof)
         course.keep(last, proof, max(share, allowed))
         reached = course.goals[last]
         target = (max(reached.value, reached.most) if allowed > share else reached.value) + share
         mass_proof = course.lightest(target, _TARGET_MARGIN * sharpness * share)
-        tried.append(course.optimum(mass_proof, target))
-        if tried[-1].mass_gap <= _LIGHT or course.timed_out or allowed > share:
+        attempts.append(course.optimum(mass_proof, target))
+        if attempts[-1].mass_gap <= _LIGHT or course.timed_out or allowed > share:
             break
     # what is sought more sharply may be found less so
-    best = min(tried, key=lambda optimum: optimum.mass_gap)
+    best = min(attempts, key=lambda optimum: optimum.mass_gap)
     return replace(best, rounds=course.rounds, certify_s=course.certify_s, timed_out=course.timed_out)
 
 
@@ -263,7 +263,7 @@ class _Course:
         """
         most = self._most(len(self.goals))
         bound = None if mass_proof is None else mass_proof.bound
-        point = settled_turn(self.program, self.so_far.begun, self.inside, most, bound, _PRINTED)
+        point = snap_turn_to_limits(self.program, self.so_far.begun, self.inside, most, bound, _PRINTED)
         most[-1] = max(most[-1], loosest)
         empty_webs = EmptyWebs(
             self.so_far,
@@ -362,7 +362,7 @@ def _bounded(program: Problem, inside: Point, most: Real, room: float = 0.0) -> 
     reached = bounded(statement, _level(program, levels)).limits
     if program.plates is not None:
         # of these the reach is stated, and speaks of the mass as if it were a multiple
-        most_held = reached.max_mass.copy()
-        most_held[program.plates.webs] = program.limits.max_mass[program.plates.webs]
-        reached = replace(reached, max_mass=most_held)
+        max_mass = reached.max_mass.copy()
+        max_mass[program.plates.webs] = program.limits.max_mass[program.plates.webs]
+        reached = replace(reached, max_mass=max_mass)
     return program.changed(limits=reached)

@@ -88,7 +88,7 @@ def resting_proof(program: Problem, cuts: Cuts, statement: Statement) -> Proof:
 
 
 def proofs(
-    program: Problem, cuts: Cuts, statement: Statement, u: Complex, dual: Multipliers, counted: Real
+    program: Problem, cuts: Cuts, statement: Statement, u: Complex, dual: Multipliers, levels: Real
 ) -> Iterator[Proof]:
     """Bounds of the last goal, or of the mass, by the multipliers of the solver and by sharper ones.
 
@@ -97,14 +97,14 @@ def proofs(
     statement : of the program with these cuts.
     u : the solver's point.
     dual : the solver's multipliers, of the statement whose goals are in their units where there are several.
-    counted : levels that the bound counts with, of all goals but the last; of all where the mass is to be small.
+    levels : levels that the bound counts with, of all goals but the last; of all where the mass is to be small.
     """
-    of_mass = counted.size == len(program.goals)
-    charge, prices, scale = float(np.sum(counted)), 1.0, None
+    of_mass = levels.size == len(program.goals)
+    charge, prices, scale = float(np.sum(levels)), 1.0, None
     if program.goal_of_case.size > 1:
         statement, dual, charges = _charged(program, of_mass, statement, dual)
-        cases, scale = program.goal_of_case < counted.size, charges[program.case_of]
-        charge = float(np.sum(charges[cases] * counted[program.goal_of_case[cases]]))
+        cases, scale = program.goal_of_case < levels.size, charges[program.case_of]
+        charge = float(np.sum(charges[cases] * levels[program.goal_of_case[cases]]))
         prices = float(np.sum(charges[program.goal_of_case == len(program.goals) - 1]))
     sharper = mass_multipliers if of_mass else objective_multipliers
     for multipliers in sharper(statement, u, dual):

@@ -21,7 +21,7 @@ _HEAVIER_PLATES = 0.9 * MASS_GAP
 _STEPS = ((NEAR[0], NEAR[0]), *((near, 0.0) for near in NEAR[1:]), *((0.0, near) for near in NEAR))
 
 
-def settled_turn(
+def snap_turn_to_limits(
     program: Problem, statement: Statement, point: Point, most: Real, mass_bound: float | None, width: float
 ) -> Point:
     """The point, settled as far as it is no worse for it.
@@ -40,10 +40,10 @@ def settled_turn(
     heavier = HEAVIER if program.plates is None else _HEAVIER_PLATES
     heaviest = np.inf if mass_bound is None else mass_bound / (1.0 - heavier)
     for dust, touched in _STEPS:
-        u, moved = near_limits(statement.limits, influence[None], point.unbalance[None], dust, touched)
-        if not moved[0]:
+        u, is_new = near_limits(statement.limits, influence[None], point.unbalance[None], dust, touched)
+        if not is_new[0]:
             continue
-        point = _settled(program, point, u[0], most, heaviest, width) or point
+        point = _snap(program, point, u[0], most, heaviest, width) or point
     if program.plates is None:
         return point
     plates = program.plates
@@ -52,13 +52,13 @@ def settled_turn(
         return point
     alone = statement.alone()
     for cut in equal_sizes(alone, plates, CutWeights(point.unbalance, angle, point.mass)):
-        alike = _settled(program, point, cut.unbalance, most, heaviest, width)
+        alike = _snap(program, point, cut.unbalance, most, heaviest, width)
         if alike is not None:
             return alike
     return point
 
 
-def _settled(program: Problem, point: Point, u: Complex, most: Real, heaviest: float, width: float) -> Point | None:
+def _snap(program: Problem, point: Point, u: Complex, most: Real, heaviest: float, width: float) -> Point | None:
     """The point with other counterweights (K,), None where it is worse for them."""
     mass = program.mass(u)
     if mass > max(point.mass, heaviest):

@@ -45,11 +45,11 @@ def single_group(
         groups = np.flatnonzero(case_of == case)
         several = [_unlike(statement, np.flatnonzero(statement.group == group)) for group in groups]
         group_share = max(1, int(_TOGETHER ** (1.0 / len(several))))
-        some = [
+        nearest = [
             indices[_nearest(np.max(rows[:, indices], axis=-1, keepdims=True) - rows[:, indices], group_share)]
             for indices in several
         ]
-        sums = list(itertools.product(*(indices.tolist() for indices in some)))
+        sums = list(itertools.product(*(indices.tolist() for indices in nearest)))
         values = np.sum(rows[:, np.array(sums)], axis=-1)
         of_kind = level[kind_of == kind_of[case]]
         below = np.min(np.max(of_kind, axis=0)[:, None] - values, axis=0)
@@ -58,9 +58,9 @@ def single_group(
     every = np.unique(kinds)
     kind_share = max(most // every.size, len(points))
     places = [np.flatnonzero(np.array(kinds) == kind) for kind in every]
-    some = [place[_nearest(np.array(slack)[None, place], kind_share)] for place in places]
-    chosen = [combinations[n] for n in np.concatenate(some).tolist()]
-    return replace(_of_rows(statement, chosen), ceilings=_nearest_ceilings(statement.ceilings, points, most))
+    nearest = [place[_nearest(np.array(slack)[None, place], kind_share)] for place in places]
+    rows_of_sums = [combinations[n] for n in np.concatenate(nearest).tolist()]
+    return replace(_of_rows(statement, rows_of_sums), ceilings=_nearest_ceilings(statement.ceilings, points, most))
 
 
 def _unlike(statement: Statement, rows: np.ndarray) -> np.ndarray:
@@ -107,15 +107,17 @@ def _nearest_ceilings(ceilings: Ceilings, points: Complex, most: int) -> Ceiling
     excess = ceilings.excess(points)
     # where some are exceeded those that come next to the largest, so that every point has its own
     slack = np.maximum(np.max(excess, axis=-1, keepdims=True), 0.0) - excess
-    some = _nearest(slack, max(most, len(points)))
-    norms, which = ceilings.norms, some.tolist()
+    nearest = _nearest(slack, max(most, len(points)))
+    norms, numbers = ceilings.norms, nearest.tolist()
     angles, scenarios, scalar = ceilings.angles_deg, ceilings.scenarios, scalars(norms)
     return replace(
         ceilings,
-        names=tuple(ceilings.names[n] for n in which),
-        norms=Norms(norms.constant[some], norms.influence[some], norms.scatter, tuple(scalar[n] for n in which)),
-        cap=ceilings.cap[some],
-        size=ceilings.size[some],
-        angles_deg=None if angles is None else tuple(angles[n] for n in which),
-        scenarios=None if scenarios is None else tuple(scenarios[n] for n in which),
+        names=tuple(ceilings.names[n] for n in numbers),
+        norms=Norms(
+            norms.constant[nearest], norms.influence[nearest], norms.scatter, tuple(scalar[n] for n in numbers)
+        ),
+        cap=ceilings.cap[nearest],
+        size=ceilings.size[nearest],
+        angles_deg=None if angles is None else tuple(angles[n] for n in numbers),
+        scenarios=None if scenarios is None else tuple(scenarios[n] for n in numbers),
     )

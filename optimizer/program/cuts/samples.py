@@ -54,11 +54,11 @@ class _Maxima(NamedTuple):
     angle: Real  # rad
     value: Complex  # about that of the curve
 
-    def subset(self, some: Index) -> "_Maxima":
-        return _Maxima._make(field[some] for field in self)
+    def subset(self, places: Index) -> "_Maxima":
+        return _Maxima._make(field[places] for field in self)
 
 
-def _joined(maxima: Sequence[_Maxima | None]) -> _Maxima:
+def _concatenation(maxima: Sequence[_Maxima | None]) -> _Maxima:
     return _Maxima._make(map(np.concatenate, zip(*filter(None, maxima), strict=True)))
 
 
@@ -125,16 +125,16 @@ class _Curves:
         # of a third of the places, to begin with
         circles = [smallest_circle(entry[:, ::3].ravel()) for entry in self.values]
         least = np.full(len(circles), np.inf)
-        held: list[_Maxima | None] = [None] * len(circles)
+        support: list[_Maxima | None] = [None] * len(circles)
         open_ = list(range(len(circles)))
         for _ in range(_MOST_CIRCLES):
             centre = np.array([entry.centre for entry in circles])
             every = self.maxima(_about(centre), least)
             still: list[int] = []
             for k in open_:
-                points = _joined([held[k], every.subset(every.curve == k)])
+                points = _concatenation([support[k], every.subset(every.curve == k)])
                 circle = smallest_circle(points.value)
-                held[k] = points.subset(circle.support)
+                support[k] = points.subset(circle.support)
                 before, circles[k] = circles[k].radius, circle
                 if abs(circle.radius - before) > _STEADY * circle.radius:
                     still.append(k)
@@ -142,7 +142,7 @@ class _Curves:
             open_ = [k for k in still if circles[k].radius > _SMALL * most]
             if not open_:
                 break
-        return _joined(held)
+        return _concatenation(support)
 
 
 def _vertex(around: Real, otherwise: Index) -> tuple[Real, Real]:
@@ -180,11 +180,11 @@ class Samples:
                 alone = response.turning is not None or quantity.masses > 0.0
                 key = q if alone else (id(pieces.source), pieces.half[response.number].tobytes())
                 together.setdefault(key, []).append(q)
-        self._curves = [(some, _Curves([quantities[q].response for q in some])) for some in together.values()]
+        self._curves = [(numbers, _Curves([quantities[q].response for q in numbers])) for numbers in together.values()]
         #: quantities whose curves cancel to their rounding error everywhere
         self.cancelled = [False] * len(quantities)
-        for some, curves in self._curves:
-            for q, nothing in zip(some, curves.nothing.tolist(), strict=True):
+        for numbers, curves in self._curves:
+            for q, nothing in zip(numbers, curves.nothing.tolist(), strict=True):
                 self.cancelled[q] = nothing and not quantities[q].masses > 0.0
 
     def first(self) -> tuple[tuple[Cut, ...], ...]:
@@ -194,12 +194,12 @@ class Samples:
             if quantity.measure == "rms":
                 mean, off, influence = quantity.response.mean, quantity.response.rms_error, quantity.response.influence
                 cuts[q] = [Cut(0j, 0.0 * influence, quantity.spread - off, share=0.0), Cut(mean, influence, -off)]
-        for some, curves in self._curves:
-            held = curves.supports()
+        for numbers, curves in self._curves:
+            support = curves.supports()
             for n, angle, value in zip(
-                held.curve.tolist(), held.angle.tolist(), curves.true(held).tolist(), strict=True
+                support.curve.tolist(), support.angle.tolist(), curves.true(support).tolist(), strict=True
             ):
-                cuts[some[n]].append(self.quantities[some[n]].cut(angle, value))
+                cuts[numbers[n]].append(self.quantities[numbers[n]].cut(angle, value))
         return tuple(map(tuple, cuts))
 
     def sizes(self, u: Complex, scatter: Scatter) -> Real:
@@ -208,8 +208,8 @@ class Samples:
         for q, quantity in enumerate(self.quantities):
             more = scatter.of(quantity.response.influence, u)
             magnitudes[q] = quantity.rms(u, scatter).lower if quantity.measure == "rms" else more
-        for some, curves in self._curves:
-            magnitudes[some] += np.sqrt(np.max(curves.squares(self._squares(some, u)), axis=(-2, -1)))
+        for numbers, curves in self._curves:
+            magnitudes[numbers] += np.sqrt(np.max(curves.squares(self._squares(numbers, u)), axis=(-2, -1)))
         return magnitudes
 
     def highest(self, u: Complex, scatter: Scatter, matters: Real) -> tuple[tuple[Evaluation, ...], ...]:
@@ -223,47 +223,47 @@ class Samples:
         for q, quantity in enumerate(self.quantities):
             if quantity.measure == "rms":
                 peaks[q] = [quantity.rms(u, scatter)]
-        for some, curves in self._curves:
-            more = [scatter.of(self.quantities[q].response.influence, u) for q in some]
-            maxima = curves.maxima(self._squares(some, u), np.maximum(matters[some] - more, 0.0) ** 2)
+        for numbers, curves in self._curves:
+            more = [scatter.of(self.quantities[q].response.influence, u) for q in numbers]
+            maxima = curves.maxima(self._squares(numbers, u), np.maximum(matters[numbers] - more, 0.0) ** 2)
             value, angle = curves.true(maxima), maxima.angle
-            moved = value + self._added(some, u, angle, maxima.curve)
-            if self.quantities[some[0]].masses > 0.0:
-                parts = self._parts(some[0], angle)
-                value = value + np.sum(worst_masses(moved, parts) * parts, axis=-1)
-                moved = value + self._added(some, u, angle, maxima.curve)
-            size = np.abs(moved.real if self.quantities[some[0]].response.scalar else moved)
+            total = value + self._contribution(numbers, u, angle, maxima.curve)
+            if self.quantities[numbers[0]].masses > 0.0:
+                parts = self._parts(numbers[0], angle)
+                value = value + np.sum(worst_masses(total, parts) * parts, axis=-1)
+                total = value + self._contribution(numbers, u, angle, maxima.curve)
+            size = np.abs(total.real if self.quantities[numbers[0]].response.scalar else total)
             for n, *values in zip(*(part.tolist() for part in (maxima.curve, angle, value, size)), strict=True):
                 at, there, lower = values
-                quantity = self.quantities[some[n]]
-                peaks[some[n]].append(quantity.peak(u, scatter, lower, lower, quantity.cut(at, there)))
+                quantity = self.quantities[numbers[n]]
+                peaks[numbers[n]].append(quantity.peak(u, scatter, lower, lower, quantity.cut(at, there)))
         return tuple(tuple(sorted(reached, key=lambda peak: -peak.lower)) for reached in peaks)
 
-    def _squares(self, some: list[int], u: Complex) -> _Squares:
+    def _squares(self, numbers: list[int], u: Complex) -> _Squares:
         """Of quantities that are looked at together, with an unbalance (K,) kg m."""
-        alone = self.quantities[some[0]]
+        alone = self.quantities[numbers[0]]
 
         def squares(value: Complex, angle: Real, curve: Index) -> Real:
-            moved = value + self._added(some, u, angle, curve)
+            total = value + self._contribution(numbers, u, angle, curve)
             if alone.masses > 0.0:
-                parts = self._parts(some[0], angle)
-                flat, matrix = moved.ravel(), parts.reshape(-1, parts.shape[-1])
-                moved = moved + np.sum(worst_masses(flat, matrix) * matrix, axis=-1).reshape(moved.shape)
-            return _squared(moved.real if alone.response.scalar else moved)
+                parts = self._parts(numbers[0], angle)
+                flat, matrix = total.ravel(), parts.reshape(-1, parts.shape[-1])
+                total = total + np.sum(worst_masses(flat, matrix) * matrix, axis=-1).reshape(total.shape)
+            return _squared(total.real if alone.response.scalar else total)
 
         return squares
 
-    def _added(self, some: list[int], u: Complex, angle: Real, curve: Index) -> Complex:
+    def _contribution(self, numbers: list[int], u: Complex, angle: Real, curve: Index) -> Complex:
         """What counterweights add at angles (...) to curves (...)."""
-        response = self.quantities[some[0]].response
+        response = self.quantities[numbers[0]].response
         if response.turning is None:
-            offsets = np.array([self.quantities[q].response.offset(u) for q in some])
+            offsets = np.array([self.quantities[q].response.offset(u) for q in numbers])
             return offsets[curve]
-        return np.asarray(response.added(u, angle.ravel())).reshape(angle.shape)
+        return np.asarray(response.contribution(u, angle.ravel())).reshape(angle.shape)
 
     def _parts(self, q: int, angle: Real) -> Complex:
         """What rows add at angles (...) where their masses are off (..., R)."""
-        response, (curves,) = self.quantities[q].response, (group for some, group in self._curves if some == [q])
+        response, (curves,) = self.quantities[q].response, (group for numbers, group in self._curves if numbers == [q])
         if angle is not curves.angle or q not in self._rows:
             parts = self.quantities[q].masses * response.curves.parts.at(response.number, angle.ravel())
             parts = parts.reshape(*angle.shape, -1)

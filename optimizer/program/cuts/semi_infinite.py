@@ -141,11 +141,11 @@ class Problem:
         """The program with other goals, ceilings or limits, and what is known of its quantities."""
         if all(getattr(self, name) is value for name, value in fields.items()):
             return self
-        other = replace(self, **fields)
-        vars(other).update({name: vars(self)[name] for name in _OF_QUANTITIES if name in vars(self)})
+        result = replace(self, **fields)
+        vars(result).update({name: vars(self)[name] for name in _OF_QUANTITIES if name in vars(self)})
         if fields.keys() == {"limits"}:
-            vars(other)["finite"] = None if self.finite is None else replace(self.finite, limits=other.limits)
-        return other
+            vars(result)["finite"] = None if self.finite is None else replace(self.finite, limits=result.limits)
+        return result
 
     @cached_property
     def samples(self) -> Samples:
@@ -203,10 +203,10 @@ class Problem:
         rest = self.at_rest.goals
         if np.all(rest > 0):
             return rest
-        posed = self.begun
-        reach = np.minimum(limits.reach, natural_reach(posed))
-        of_term = np.sum(np.abs(posed.norms.influence) * reach, axis=-1)
-        change = self.of_goals(np.bincount(posed.group[posed.row], of_term, len(self.groups)).astype(float))
+        program = self.begun
+        reach = np.minimum(limits.reach, natural_reach(program))
+        of_term = np.sum(np.abs(program.norms.influence) * reach, axis=-1)
+        change = self.of_goals(np.bincount(program.group[program.row], of_term, len(self.groups)).astype(float))
         return np.where(rest > 0, rest, change)
 
     @cached_property
@@ -257,27 +257,27 @@ class Problem:
 
     def outer(self, cuts: Cuts) -> Statement:
         """The program with finitely many cuts of every quantity: its groups, its ceilings with what is limited last."""
-        posed = self._objective(cuts)
-        exact, chosen = self._exact_ceilings, [(q, cap, cut) for q, cap in self.limited for cut in cuts[q]]
-        if not chosen:
-            return replace(posed, ceilings=exact)
+        program = self._objective(cuts)
+        exact, limits = self._exact_ceilings, [(q, cap, cut) for q, cap in self.limited for cut in cuts[q]]
+        if not limits:
+            return replace(program, ceilings=exact)
         norms = Norms(
-            np.append(exact.norms.constant, [cut.constant for _, _, cut in chosen]),
-            np.concatenate([exact.norms.influence, *(cut.influence[None] for _, _, cut in chosen)]),
+            np.append(exact.norms.constant, [cut.constant for _, _, cut in limits]),
+            np.concatenate([exact.norms.influence, *(cut.influence[None] for _, _, cut in limits)]),
             self.scatter.share,
-            (*(False for _ in exact.names), *(cut.scalar for _, _, cut in chosen)),
+            (*(False for _ in exact.names), *(cut.scalar for _, _, cut in limits)),
         )
         # an excess is a share of the quantity's size, not of its cuts'
         size = dict(zip(self.limited, self.sizes[len(self.ceilings) :].tolist(), strict=True))
         ceilings = Ceilings(
-            (*exact.names, *(self.quantities[q].name for q, _, _ in chosen)),
+            (*exact.names, *(self.quantities[q].name for q, _, _ in limits)),
             norms,
-            np.append(exact.cap, [cap - cut.floor for _, cap, cut in chosen] - self._astray(norms)[exact.cap.size :]),
-            np.append(exact.size, [size[q, cap] for q, cap, _ in chosen]),
-            angles_deg=(*(None for _ in exact.names), *(cut.angle_deg for _, _, cut in chosen)),
-            scenarios=(*(exact.scenarios or ()), *(self.quantities[q].scenario for q, _, _ in chosen)),
+            np.append(exact.cap, [cap - cut.floor for _, cap, cut in limits] - self._astray(norms)[exact.cap.size :]),
+            np.append(exact.size, [size[q, cap] for q, cap, _ in limits]),
+            angles_deg=(*(None for _ in exact.names), *(cut.angle_deg for _, _, cut in limits)),
+            scenarios=(*(exact.scenarios or ()), *(self.quantities[q].scenario for q, _, _ in limits)),
         )
-        return replace(posed, ceilings=ceilings)
+        return replace(program, ceilings=ceilings)
 
     def _objective(self, cuts: Cuts) -> Statement:
         """The statement without ceilings."""
@@ -308,9 +308,9 @@ class Problem:
             over, point = self.finite.ceilings.excess(u) if self.ceilings else _NONE_OVER, points_at(self.finite, u)
             return Values(point.objective[None], over, (), self._over_budget(u), float(point.rounding))
         about = np.maximum(self.samples.sizes(u, self.scatter), _TINY)
-        wanted = np.clip(width * self._shares / np.maximum(about, self._faint), 1e-15, 1e300)
+        tolerance = np.clip(width * self._shares / np.maximum(about, self._faint), 1e-15, 1e300)
         spare = self._spare(about)
-        return self._decided(u, wanted, self.brackets.evaluate(u, np.maximum(wanted, spare)), spare > wanted)
+        return self._decided(u, tolerance, self.brackets.evaluate(u, np.maximum(tolerance, spare)), spare > tolerance)
 
     def _spare(self, about: Real) -> Real:
         """Widths of brackets (quantities,) that tell of what decides nothing that it does not.
@@ -349,7 +349,7 @@ class Problem:
         large it is."""
         return np.where(np.isfinite(self._shares), _FAINT * self._shares, 0.0)
 
-    def seen(self, u: Complex, matters: Real) -> tuple[Values, tuple[tuple[Evaluation, ...], ...]]:
+    def sample_values(self, u: Complex, matters: Real) -> tuple[Values, tuple[tuple[Evaluation, ...], ...]]:
         """What an unbalance comes to at some angles, which is no more than the truth, and every quantity there.
 
         Parameters

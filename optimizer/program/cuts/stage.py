@@ -58,7 +58,7 @@ class Levels:
 
     margin: Real  # by which the solver aims lower
     most: Real  # that the point keeps
-    counted: Real  # that the bound counts with
+    of_bound: Real  # that the bound counts with
 
 
 @record(frozen=True)
@@ -134,7 +134,7 @@ class Search:
         enough : gap that ends the search, in the goal's unit; of a mass relative to it.
         stop : whether a value and its bound are all that has to be known.
         """
-        statement = self._posed()
+        statement = self._statement()
         best, proof = self.inside, self._closed(None, statement)
         attempts, gap = list(FREELY if self.free else WITHIN), np.inf
         rounds, timed_out = 0, False
@@ -153,38 +153,42 @@ class Search:
             bound = -np.inf if proof is None else proof.bound
             matters, mass = self._matters(statement, u), self._mass(u)
             # what is seen at some angles is no more than the truth: while that is too much no bracket is needed
-            seen, places = self.program.seen(u, matters)
-            figure = self._promise(Point(u, seen, mass))
+            lower_values, places = self.program.sample_values(u, matters)
+            figure = self._promise(Point(u, lower_values, mass))
             promised = min(promised, _Promise(figure, u), key=lambda promise: promise.figure)
             gap = figure - bound
             lost = (
                 self.free
                 and self._stated_goals(statement, u)[-1] - max(candidate.bound for candidate in proven) > _LOST * gap
             )
-            if gap > self._wanted(enough, best) and not stop(figure, bound) and self._added_cuts(places, u, matters):
+            if (
+                gap > self._gap_limit(enough, best)
+                and not stop(figure, bound)
+                and self._has_new_cut(places, u, matters)
+            ):
                 if lost:
                     # not cuts are missing but digits of the multipliers
                     attempts = [*attempts[1:], attempts[0]]
-                statement = self._posed()
+                statement = self._statement()
                 continue
             # what may be the answer is judged once
             narrow = _COARSE
-            if gap <= self._wanted(enough, best):
+            if gap <= self._gap_limit(enough, best):
                 narrow = _CLOSE if self.of_mass else _JUDGED
             point = self._evaluated(u, min(self._width(enough, gap), narrow))
             promised = none if promised.unbalance is u else promised
             best = min(best, self._feasible(point), key=self.figure)
             gap = self.figure(best) - bound
-            if gap <= self._wanted(enough, best) or stop(self.figure(best), bound):
+            if gap <= self._gap_limit(enough, best) or stop(self.figure(best), bound):
                 break
-            if not self._added_cuts([(reached,) for reached in point.values.reached], u, matters):
+            if not self._has_new_cut([(reached,) for reached in point.values.reached], u, matters):
                 proof = self._closed(proof, statement)
                 self.missed = _MISSED * np.maximum(point.values.goals[: self.aimed.size] - self.aimed, 0.0)
                 attempts = attempts[1:]
                 continue
             if lost:
                 attempts = [*attempts[1:], attempts[0]]
-            statement = self._posed()
+            statement = self._statement()
         else:
             timed_out = self._late()
         if promised.figure < self.figure(best):
@@ -192,7 +196,7 @@ class Search:
             best = min(best, self._feasible(self._evaluated(promised.unbalance, width)), key=self.figure)
         return StageEnd(self._tidied(best), proof, rounds, self.certify_s, timed_out)
 
-    def _wanted(self, enough: float, best: Point) -> float:
+    def _gap_limit(self, enough: float, best: Point) -> float:
         """Gap that ends the search, in units of what is small.
 
         Of a mass no more is to be had than what is paid for the room between what the solver keeps and what the bound
@@ -200,13 +204,13 @@ class Search:
         """
         if not self.of_mass:
             return enough
-        room = self.levels.counted - self.levels.most + self.margin
+        room = self.levels.of_bound - self.levels.most + self.margin
         return enough * best.mass + float(np.sum(self.price * np.maximum(room, 0.0)))
 
     def _late(self) -> bool:
         return time.thread_time() >= self.until
 
-    def _posed(self) -> Statement:
+    def _statement(self) -> Statement:
         """The program with the cuts that are known."""
         return self.program.outer(self.pool.cuts)
 
@@ -225,7 +229,7 @@ class Search:
         worth = np.where(self.price > 0, _OPEN * enough / np.where(self.price > 0, self.price, 1.0), np.inf)
         self.margin = np.minimum(self.levels.margin, np.maximum(worth, least))
 
-    def _added_cuts(self, evaluations: Sequence[Sequence[Evaluation]], u: Complex, matters: Real) -> bool:
+    def _has_new_cut(self, evaluations: Sequence[Sequence[Evaluation]], u: Complex, matters: Real) -> bool:
         """Whether a point has shown a cut that was not known, or a plate that is heavier than its tangents."""
         new = self.pool.add(evaluations, u, matters)
         self.pool.forget(u)
@@ -248,9 +252,9 @@ class Search:
         if self.plates is None:
             webs = self.program.limits.radius.size
             return Pieces(statement, np.arange(webs), webs)
-        some = np.ones(self.program.limits.radius.size, bool)
-        some[self.plates.webs] = self.program.limits.max_mass[self.plates.webs] > 0.0
-        return pieces(statement, self.plates, tangents(self.plates, self._nodes(self.plates)), some)
+        mask = np.ones(self.program.limits.radius.size, bool)
+        mask[self.plates.webs] = self.program.limits.max_mass[self.plates.webs] > 0.0
+        return pieces(statement, self.plates, tangents(self.plates, self._nodes(self.plates)), mask)
 
     def _promise(self, point: Point) -> float:
         """What the best that is kept between a point and those inside comes to at least, and by convexity at most if
@@ -288,40 +292,40 @@ class Search:
         """The point of finitely many cuts, and what its multipliers prove."""
         program, goal_of, case_of = self.program, self.program.goal_of, self.program.case_of
         laid = self._laid(statement)
-        posed = times(laid.program, 1.0 / self.unit[goal_of])
+        program_in_units = times(laid.program, 1.0 / self.unit[goal_of])
         mass = (self.inside.mass or 1.0) if self.of_mass else 1.0
         lowered = -_RAISED if self.raised else attempt.margins * _LOWERED
-        largest = float(np.max(np.abs(posed.norms.constant)))
+        largest = float(np.max(np.abs(program_in_units.norms.constant)))
         stage: Stage = "mass" if self.of_mass else "objective"
-        data, scaling = scale(posed, stage, self.clip, lowered, mass_unit=mass, unit=largest)
-        highest = posed.largest(posed.floor)
+        data, scaling = scale(program_in_units, stage, self.clip, lowered, mass_unit=mass, unit=largest)
+        highest = program_in_units.largest(program_in_units.floor)
         aimed = self.aimed = self.levels.most - attempt.margins * self.margin - self.missed
 
         def sums(n: int, most: float) -> list[GroupLimit]:
             """The sums of a goal, none above a level."""
-            chosen = [case_of == case for case in np.flatnonzero(program.goal_of_case == n)]
-            return [GroupLimit(case, (most - float(np.sum(highest[case]))) / scaling.objective) for case in chosen]
+            cases = [case_of == case for case in np.flatnonzero(program.goal_of_case == n)]
+            return [GroupLimit(case, (most - float(np.sum(highest[case]))) / scaling.objective) for case in cases]
 
         targets = [item for n, most in enumerate(aimed) for item in sums(n, most / self.unit[n])]
         of_target = program.goal_of_case[program.goal_of_case < aimed.size]
         last = len(program.goals) - 1
         left = max(self.until - time.thread_time(), _LAST_S)
-        posed_as = data, attempt.tolerance, left, goal_of == last, targets, sums(last, 0.0)
+        arguments = data, attempt.tolerance, left, goal_of == last, targets, sums(last, 0.0)
         about = self.about if attempt.boosted else None
-        result = solved(*posed_as, about, attempt.regularization)
+        result = solved(*arguments, about, attempt.regularization)
         if isinstance(result, NoPoint) and about is not None:
             # what was boosted about another point may be worse than what was not
-            result = solved(*posed_as)
+            result = solved(*arguments)
         if isinstance(result, NoPoint):
             self.about = None
             return None
         self.about = result.variables
         worth = scaling.value / scaling.objective * (1.0 if self.of_mass else float(self.unit[-1]))
         self.price = np.bincount(of_target, result.price, aimed.size) * worth / self.unit[: aimed.size]
-        u = posed.limits.into(scaling.unbalance(posed, result.solution))
+        u = program_in_units.limits.into(scaling.unbalance(program_in_units, result.solution))
         began = time.perf_counter()
-        multipliers = scaling.multipliers(posed, result.solution)
-        proven = list(proofs(program, self.pool.cuts, laid.program, u, multipliers, self.levels.counted))
+        multipliers = scaling.multipliers(program_in_units, result.solution)
+        proven = list(proofs(program, self.pool.cuts, laid.program, u, multipliers, self.levels.of_bound))
         if self.plates is not None:
             u, proven = laid.carried(u), [item.of_webs(statement) for item in proven]
         self.certify_s += time.perf_counter() - began
@@ -358,13 +362,13 @@ class Search:
         """The best that is kept between a point and those inside; later points are moved towards the nearest."""
         if np.all(self._excess(point.values) <= 0.0):
             self.near = point
-            points = [point] if self.beyond is None else [point, self._moved(self.beyond, point)]
+            points = [point] if self.beyond is None else [point, self._interior_step(self.beyond, point)]
         else:
             self.beyond = point
-            points = [self._moved(point, inside) for inside in (self.inside, self.near) if inside is not None]
+            points = [self._interior_step(point, inside) for inside in (self.inside, self.near) if inside is not None]
         return min(points, key=self.figure)
 
-    def _moved(self, point: Point, inside: Point) -> Point:
+    def _interior_step(self, point: Point, inside: Point) -> Point:
         """The point moved towards one inside just so far that all is kept; all of it is convex."""
         for _ in range(4):
             over, under = self._excess(point.values), self._excess(inside.values)

@@ -71,7 +71,7 @@ def minorant(term, row, ceiling, programs, n, cap, normal):  # type: ignore[no-u
     own, rows, region = programs.owner.size, programs.floor.shape[1], programs.region
     influence, across, magnitude = programs.influence, programs.across, programs.magnitude
     lam, size_of, rounding, spread = programs.numbers[0], programs.numbers[1], programs.numbers[2], programs.numbers[3]
-    y, slopes, turned = programs.vectors[0], programs.vectors[1], programs.across.shape[2] > 0
+    y, slopes, is_complex = programs.vectors[0], programs.vectors[1], programs.across.shape[2] > 0
     price = admissible_rows(row, programs.group, programs.floor, n, lam)
     finite = price > 0.0 and price < np.inf
     factor = 1.0 / price if finite and normal else 1.0
@@ -102,7 +102,7 @@ def minorant(term, row, ceiling, programs, n, cap, normal):  # type: ignore[no-u
         last -= 1
     for k in range(webs):
         x, z, large = 0.0, 0.0, 0.0
-        if turned:
+        if is_complex:
             for j in range(last):
                 x += influence[n, j, k] * y[j].real + across[n, j, k] * y[j].imag
                 z += influence[n, j, k] * y[j].imag - across[n, j, k] * y[j].real
@@ -124,7 +124,7 @@ def minorant(term, row, ceiling, programs, n, cap, normal):  # type: ignore[no-u
             for j in range(terms):
                 x, x_rest = add_product(x, x_rest, influence[n, j, k], y[j].real)
                 z, z_rest = add_product(z, z_rest, influence[n, j, k], y[j].imag)
-                if turned:
+                if is_complex:
                     x, x_rest = add_product(x, x_rest, across[n, j, k], y[j].imag)
                     z, z_rest = add_product(z, z_rest, -across[n, j, k], y[j].real)
             slopes[k] = complex(x + x_rest, z + z_rest)
@@ -144,13 +144,13 @@ def minorant(term, row, ceiling, programs, n, cap, normal):  # type: ignore[no-u
 def _spread(programs, n, factor):  # type: ignore[no-untyped-def]
     """What a bound rises by, or less, for a kilogram metre on each web because counterweights scatter."""
     _, terms, webs = programs.influence.shape
-    own, turned, region = programs.owner.size, programs.across.shape[2] > 0, programs.region
+    own, is_complex, region = programs.owner.size, programs.across.shape[2] > 0, programs.region
     lam, size_of, spread, mean = programs.numbers[0], programs.numbers[1], programs.numbers[3], programs.numbers[4]
     for k in range(webs):
         mean[k] = 0.0
     for k in range(webs):
         for j in range(terms):
-            large = programs.magnitude[n, j, k] if turned else abs(programs.influence[n, j, k])
+            large = programs.magnitude[n, j, k] if is_complex else abs(programs.influence[n, j, k])
             worth = lam[programs.owner[j]] * factor if j < own else size_of[j]
             spread[k] += programs.scatter[0 if j < own else 1] * worth * large
         if region.leader.size:

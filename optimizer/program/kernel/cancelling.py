@@ -42,11 +42,11 @@ def change_of_real(influence, constant, passes, row, basis, u):  # type: ignore[
                 row[k] = influence[j, k] / (size if size > 0.0 else 1.0)
                 left += complex(row[k] * u[k].real, row[k] * u[k].imag)
             for before in range(j * passes):
-                other, share = before % j, 0.0
+                column, share = before % j, 0.0
                 for k in range(webs):
-                    share += row[k] * basis[other, k]
+                    share += row[k] * basis[column, k]
                 for k in range(webs):
-                    row[k] -= share * basis[other, k]
+                    row[k] -= share * basis[column, k]
             square = 0.0
             for k in range(webs):
                 square += row[k] * row[k]
@@ -72,12 +72,12 @@ def change(influence, constant, passes, row, basis, u):  # type: ignore[no-untyp
                 row[k] = _over(influence[j, k], size if size > 0.0 else 1.0)
                 left += row[k] * u[k]
             for before in range(j * passes):
-                other = basis[before % j]
+                vector = basis[before % j]
                 share = 0.0j
                 for k in range(webs):
-                    share += row[k] * np.conj(other[k])
+                    share += row[k] * np.conj(vector[k])
                 for k in range(webs):
-                    row[k] -= share * other[k]
+                    row[k] -= share * vector[k]
             square = 0.0
             for k in range(webs):
                 square += row[k].real * row[k].real + row[k].imag * row[k].imag

@@ -125,8 +125,8 @@ def targets(nu, d, w, eta, lam, s, z, f, ws):  # type: ignore[no-untyped-def]
 
 
 @inner
-def corrector(wanted, w, eta, ds, dz, d):  # type: ignore[no-untyped-def]
-    """Second-order part (W^-1 dS) o (W dZ) of every cone, times ``wanted`` (n,), 1 or 0."""
+def corrector(factor, w, eta, ds, dz, d):  # type: ignore[no-untyped-def]
+    """Second-order part (W^-1 dS) o (W dZ) of every cone, times ``factor`` (n,), 1 or 0."""
     for i in range(ds.shape[1]):
         w0, w1, w2 = w[0, i], w[1, i], w[2, i]
         along = w1 * ds[1, i] + w2 * ds[2, i]
@@ -136,9 +136,9 @@ def corrector(wanted, w, eta, ds, dz, d):  # type: ignore[no-untyped-def]
         along = w1 * dz[1, i] + w2 * dz[2, i]
         shift = along * half + dz[0, i]
         b0, b1, b2 = w0 * dz[0, i] + along, dz[1, i] + w1 * shift, dz[2, i] + w2 * shift
-        d[0, i] = wanted[i] * (a0 * b0 + a1 * b1 + a2 * b2)
-        d[1, i] = wanted[i] * (a0 * b1 + b0 * a1)
-        d[2, i] = wanted[i] * (a0 * b2 + b0 * a2)
+        d[0, i] = factor[i] * (a0 * b0 + a1 * b1 + a2 * b2)
+        d[1, i] = factor[i] * (a0 * b1 + b0 * a1)
+        d[2, i] = factor[i] * (a0 * b2 + b0 * a2)
 
 
 @inner

@@ -136,9 +136,9 @@ def pairs(influence, basis, multiple, two, holds):  # type: ignore[no-untyped-de
     multiple, two, holds : (N, Q), (N, 2, K) and (N,) bool, whether the vectors are such multiples: what is found.
     """
     number, vectors, webs = influence.shape
-    others = 0
+    second_count = 0
     for q in range(vectors):
-        others += basis[q]
+        second_count += basis[q]
     for n in range(number):
         same = True
         for b in range(2):
@@ -154,7 +154,7 @@ def pairs(influence, basis, multiple, two, holds):  # type: ignore[no-untyped-de
             for k in range(webs):
                 two[n, b, k] = influence[n, largest, k] if largest >= 0 else 0.0
                 square += two[n, b, k] * two[n, b, k]
-            alone = (others if b > 0 else vectors - others) < 2
+            alone = (second_count if b > 0 else vectors - second_count) < 2
             for q in range(vectors):
                 if basis[q] == b:
                     along, off, allowed = 0.0, 0, _SAME * multiple[n, q]

@@ -113,9 +113,9 @@ def _couple(vector, size, pair):  # type: ignore[no-untyped-def]
 
 
 @fused
-def _add_webs(vector, other, webs, block):  # type: ignore[no-untyped-def]
+def _add_webs(vector, source, webs, block):  # type: ignore[no-untyped-def]
     for t in range(LANES):
-        f = other[t + F]
+        f = source[t + F]
         ka, kb, kc, kd = f * vector[t + KA], f * vector[t + KB], f * vector[t + KC], f * vector[t + KD]
         a, b, c, d = webs[t], webs[t + LANES], webs[t + 2 * LANES], webs[t + 3 * LANES]
         block[t], block[t + LANES] = ka * a + kb * c, ka * b + kb * d

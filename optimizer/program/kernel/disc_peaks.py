@@ -167,8 +167,8 @@ def correct_peaks(least_mass, budgeted, peak, own):  # type: ignore[no-untyped-d
     for j in range(peak.shape[0]):
         vector = peak[j]
         for t in range(LANES):
-            both, dl, dyx, dyy = own[t + BOTH], vector[t + DL], vector[t + DYX], vector[t + DYY]
-            ds, dax, day = both * vector[t + DS], both * vector[t + DAX], both * vector[t + DAY]
+            coupling, dl, dyx, dyy = own[t + BOTH], vector[t + DL], vector[t + DYX], vector[t + DYY]
+            ds, dax, day = coupling * vector[t + DS], coupling * vector[t + DAX], coupling * vector[t + DAY]
             vector[t + J0] += own[t + AIM] - ds * dl - dax * dyx - day * dyy
             vector[t + JX] -= ds * dyx + dl * dax
             vector[t + JY] -= ds * dyy + dl * day

@@ -35,7 +35,7 @@ class Discs(NamedTuple):
     cap: Real  # (N, I)
     #: (N, 5, K) x and y of the normal of either edge, then 1, all 0 of a web without a sector; (N, 5, 0) if all are
     normals: Real
-    which: np.ndarray  # (n,) the programs to solve
+    numbers: np.ndarray  # (n,) the programs to solve
 
 
 @inner

@@ -128,8 +128,8 @@ def _hold_by_edges(sized, web, edge, own, at, on, t):  # type: ignore[no-untyped
     a, d = x * z - (vx * px + vy * py), z * z - px * px - py * py
     e12, g12, sizes, det = e1 * e2, g1 * g2, z * q + x * zq, a * zq + d * q
     own_det, own_edges = det * sizes, e12 * g12
-    both = 1.0 / (own_det * own_edges)
-    per_own, per_edges = both * own_edges, both * own_det
+    inverse = 1.0 / (own_det * own_edges)
+    per_own, per_edges = inverse * own_edges, inverse * own_det
     per_det, per_e, per_g = per_own * sizes, per_edges * g12, per_edges * e12
     per1, per2 = per_e * e2, per_e * e1
     edge[on + PER1], edge[on + PER2], edge[on + PER_SIZES] = per1, per2, per_own * det
@@ -182,8 +182,8 @@ def look_at_webs(sized, webs, web, edge, own):  # type: ignore[no-untyped-def]
             if edge is None:
                 mx, my = x * px - z * vx, x * py - z * vy
                 det = a * zq + d * q
-                both = 1.0 / (det * z)
-                per_det, per = both * z, both * det
+                inverse = 1.0 / (det * z)
+                per_det, per = inverse * z, inverse * det
                 ux, uy = (vx * zq + px * q) * per_det, (vy * zq + py * q) * per_det
                 txx, txy, tyx, tyy = per * (x + ux * mx), per * ux * my, per * uy * mx, per * (x + uy * my)
                 dz, dx = (zq * r0 + d * rq) * per_det, (q * r0 - a * rq) * per_det
@@ -343,8 +343,8 @@ def correct_webs(sized, webs, web, edge, own):  # type: ignore[no-untyped-def]
             at = k * WEB + t
             h1, h2, cost, aim = web[at + H1], web[at + H2], web[at + COST], own[t + AIM]
             vx, vy, x, z, px, py = web[at + VX], web[at + VY], web[at + X], web[at + Z], web[at + PX], web[at + PY]
-            dpx, dpy, dz, both = web[at + DPX], web[at + DPY], web[at + DZ], own[t + BOTH]
-            dvx, dvy, dx = both * web[at + DVX], both * web[at + DVY], both * web[at + DX]
+            dpx, dpy, dz, coupling = web[at + DPX], web[at + DPY], web[at + DZ], own[t + BOTH]
+            dvx, dvy, dx = coupling * web[at + DVX], coupling * web[at + DVY], coupling * web[at + DX]
             more_x, more_y = -(dx * dpx + dz * dvx), -(dx * dpy + dz * dvy)
             q = 1.0 - x if sized else 0.0
             zq = z - own[t + BUDGET] * cost if sized else 1.0
@@ -359,8 +359,8 @@ def correct_webs(sized, webs, web, edge, own):  # type: ignore[no-untyped-def]
                 on = k * EDGE + t
                 present, per1, per2 = edge[on + PRESENT], edge[on + PER1], edge[on + PER2]
                 edge[on + RS] += aim - dx * dz - dvx * dpx - dvy * dpy
-                q1 = (aim * edge[on + PAIR1] - both * edge[on + DE1] * edge[on + DG1] * per1 - 1.0) * present
-                q2 = (aim * edge[on + PAIR2] - both * edge[on + DE2] * edge[on + DG2] * per2 - 1.0) * present
+                q1 = (aim * edge[on + PAIR1] - coupling * edge[on + DE1] * edge[on + DG1] * per1 - 1.0) * present
+                q2 = (aim * edge[on + PAIR2] - coupling * edge[on + DE2] * edge[on + DG2] * per2 - 1.0) * present
                 edge[on + Q1], edge[on + Q2] = q1, q2
                 dz, dx = (zq * r0 + d * rq) * per_det, (q * r0 - a * rq) * per_det
                 gx, gy = _alone_at_edges(rx - vx * dz - px * dx, ry - vy * dz - py * dx, q1, q2, edge, on)

@@ -153,9 +153,9 @@ def run(least_mass, budgeted, edged, programs, first, edge, cost, most, toleranc
     # of one axis and then of their shape: to fill arrays the compiler makes a function for each number of axes
     web, own, peak = np.ones(webs * WEB), np.ones(OWN), np.ones(vectors * PEAK).reshape((vectors, PEAK))
     matrix = np.ones((vectors + 1) * (vectors + 1) * BLOCK).reshape((vectors + 1, vectors + 1, BLOCK))
-    step, wanted = np.zeros((vectors + 1, PAIR)), np.zeros(LANES)
+    step, target = np.zeros((vectors + 1, PAIR)), np.zeros(LANES)
     program, steps = np.zeros(LANES, np.int64), np.zeros(LANES, np.int64)
-    degree, before, held = np.ones(LANES), np.zeros(LANES), np.zeros(LANES, np.int64)
+    degree, before, stalls = np.ones(LANES), np.zeros(LANES), np.zeros(LANES, np.int64)
     # with edges or a budget limits are of very different size, and less is sure of steps to all of them at once
     longest = _LONGEST if edged or budgeted else 1.0
     loosest = _LOOSEST_MASS if least_mass else _LOOSEST
@@ -166,8 +166,8 @@ def run(least_mass, budgeted, edged, programs, first, edge, cost, most, toleranc
         for t in range(LANES):
             if program[t] < 0 and waiting < number:
                 n = waiting
-                program[t], steps[t], held[t], wanted[t] = n, 1, 0, middle[n]
-                at = programs.which[first + n]
+                program[t], steps[t], stalls[t], target[t] = n, 1, 0, middle[n]
+                at = programs.numbers[first + n]
                 _load(programs, at, cost[n], starts[n], t, web, peak, own)
                 if edged:
                     _load_edges(programs.normals[at], starts[n], vectors, t, edge)
@@ -197,9 +197,9 @@ def run(least_mass, budgeted, edged, programs, first, edge, cost, most, toleranc
                     # both changes of the objectives together would close the gap
                     left = gap + min(own[PRIMAL + t], 1.0) * change - min(own[DUAL + t], 1.0) * (gap + change)
                     sigma = min(max(left / gap, 0.0), 1.0) ** 3
-                    if wanted[t] > 0.0 and gap * sigma < 0.3 * wanted[t]:
+                    if target[t] > 0.0 and gap * sigma < 0.3 * target[t]:
                         # not past the middle of the optima in one step
-                        sigma = 0.5 * wanted[t] / gap
+                        sigma = 0.5 * target[t] / gap
                     if own[BOTH + t] == 0.0:
                         sigma = max(sigma, _CAUTIOUS)
                     own[AIM + t], own[KEEP + t] = sigma * gap / degree[t], 1.0 - sigma
@@ -222,7 +222,7 @@ def run(least_mass, budgeted, edged, programs, first, edge, cost, most, toleranc
             own[DUAL + t] = min(share * own[DUAL + t], 1.0)
             # after a short step, or one for nothing, back to the middle without the second order
             well = min(own[PRIMAL + t], own[DUAL + t]) >= _SHORT and own[GAP + t] < 0.9 * before[t]
-            own[BOTH + t], held[t] = (1.0, 0) if well else (0.0, held[t] + 1)
+            own[BOTH + t], stalls[t] = (1.0, 0) if well else (0.0, stalls[t] + 1)
             before[t] = own[GAP + t]
         move_webs(sized, webs, web, own)
         if edged:
@@ -236,8 +236,8 @@ def run(least_mass, budgeted, edged, programs, first, edge, cost, most, toleranc
             over = 0.0
             for j in range(terms, vectors):
                 over = max(over, abs(peak[j, OVER + t]))
-            if wanted[t] > 0.0 and gap + over <= wanted[t]:
-                wanted[t] = 0.0
+            if target[t] > 0.0 and gap + over <= target[t]:
+                target[t] = 0.0
                 _save(webs, t, web, peak, own, starts[n])
                 if edged:
                     _save_edges(webs, vectors, t, edge, starts[n])
@@ -246,7 +246,7 @@ def run(least_mass, budgeted, edged, programs, first, edge, cost, most, toleranc
             gap += over
             steps[t] += 1
             # rounding may hold up the last steps: where a norm vanishes that few webs are free to change
-            enough = tolerance[n] * (1.0 if held[t] == 0 else _NEARLY if held[t] == 1 else loosest)
+            enough = tolerance[n] * (1.0 if stalls[t] == 0 else _NEARLY if stalls[t] == 1 else loosest)
             if gap <= enough or steps[t] > _MOST_STEPS or not np.isfinite(gap):
                 reached[n] = gap if gap <= enough else np.inf
                 _save(webs, t, web, peak, own, ends[n])
@@ -265,7 +265,7 @@ def solve(  # type: ignore[no-untyped-def]
     budget,
     cap,
     normals,
-    which,
+    numbers,
     budgeted,
     least_mass,
     share,
@@ -276,7 +276,7 @@ def solve(  # type: ignore[no-untyped-def]
 
     Parameters
     ----------
-    basis, multiple, constant, influence, mass, budget, cap, normals, which : as of
+    basis, multiple, constant, influence, mass, budget, cap, normals, numbers : as of
         :class:`optimizer.program.kernel.disc_starts.Discs`.
     budgeted : whether they have a budget.
 
@@ -289,8 +289,8 @@ def solve(  # type: ignore[no-untyped-def]
     v (2, N, K, 2), multipliers of the vectors (2, N, Q, 2) and of the row (2, N, 1), for the first and for the second
     stage; and the unit of mass of the second stage (N,). Of a stage that did not end well all is 0.
     """
-    programs = Discs(basis, multiple, constant, influence, mass, budget, cap, normals, which)
-    number, vectors, webs = which.size, basis.size, mass.shape[1]
+    programs = Discs(basis, multiple, constant, influence, mass, budget, cap, normals, numbers)
+    number, vectors, webs = numbers.size, basis.size, mass.shape[1]
     v = np.zeros(4 * number * webs).reshape((2, number, webs, 2))
     p = np.zeros(4 * number * vectors).reshape((2, number, vectors, 2))
     prices, mass_unit = np.zeros(2 * number).reshape((2, number, 1)), np.ones(number)
@@ -309,11 +309,11 @@ def solve(  # type: ignore[no-untyped-def]
             for n in range(count):
                 at = begin + n
                 if stage == 0:
-                    begin_first(programs, which[at], budgeted, cost[n], starts[n])
+                    begin_first(programs, numbers[at], budgeted, cost[n], starts[n])
                     ending[n], middle[n] = tolerance[at], 0.5 * share[at] if least_mass else 0.0
                 else:
                     mass_unit[at], most[n] = begin_second(
-                        programs, which[at], budgeted, share[at], reached[n], ends[n], cost[n], starts[n]
+                        programs, numbers[at], budgeted, share[at], reached[n], ends[n], cost[n], starts[n]
                     )
                     ending[n], middle[n] = mass_tolerance, 0.0
             own = budgeted and stage == 0

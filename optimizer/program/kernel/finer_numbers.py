@@ -105,12 +105,12 @@ def interpreted(
 
     parts = parts or (cones, lanes, webs, newton, starts, interior_point)
     names = {name: value for part in parts for name, value in vars(part).items()}
-    written = {part.__name__ for part in parts}
+    modules = {part.__name__ for part in parts}
     space: dict[str, Any] = {name: _literal(value, number) for name, value in names.items()}
     space["np"] = numpy
     for name, value in names.items():
         source = getattr(value, "py_func", value)
-        if isinstance(source, FunctionType) and source.__module__ in written:
+        if isinstance(source, FunctionType) and source.__module__ in modules:
             code = source.__code__.replace(co_consts=_literal(source.__code__.co_consts, number))
             space[name] = FunctionType(code, space, name, source.__defaults__)
     return space

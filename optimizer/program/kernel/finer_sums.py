@@ -23,5 +23,5 @@ def add_product(total, rest, a, b):  # type: ignore[no-untyped-def]
     b_low = b - b_high
     off = a_low * b_low - (((product - a_high * b_high) - a_low * b_high) - a_high * b_low)
     new = total + product
-    moved = new - total
-    return new, rest + (((total - (new - moved)) + (product - moved)) + off)
+    step = new - total
+    return new, rest + (((total - (new - step)) + (product - step)) + off)

@@ -66,15 +66,15 @@ class Task(NamedTuple):
 
 
 @inner
-def _to_lane(row, packed, t):  # type: ignore[no-untyped-def]
+def _to_lane(row, storage, t):  # type: ignore[no-untyped-def]
     for i in range(row.size):
-        packed[i, t] = row[i]
+        storage[i, t] = row[i]
 
 
 @inner
-def _from_lane(packed, t, row):  # type: ignore[no-untyped-def]
+def _from_lane(storage, t, row):  # type: ignore[no-untyped-def]
     for i in range(row.size):
-        row[i] = packed[i, t]
+        row[i] = storage[i, t]
 
 
 @inner
@@ -103,22 +103,22 @@ def load(programs, task, n, batch, t):  # type: ignore[no-untyped-def]
 
 
 @inner
-def _run_stage(least_mass, programs, task, ends, batch, course, packed, best, work):  # type: ignore[no-untyped-def]
+def _run_stage(least_mass, programs, task, ends, batch, course, storage, best, work):  # type: ignore[no-untyped-def]
     """A stage of every program: steps until the gap is at most the tolerance, or no longer falls; ends (N, S)."""
     number, cones, webs = programs.influence.shape
     rows = programs.floor.shape[1]
-    size, lanes = packed.shape
-    state = views(packed, webs, cones, rows)
-    program, done, better, cautious = course.program, course.done, course.better, course.cautious
-    barrier, costs, sigma, wanted = course.barrier, course.costs, course.sigma, course.wanted
+    size, lanes = storage.shape
+    state = views(storage, webs, cones, rows)
+    program, vacancy, better, cautious = course.program, course.vacancy, course.better, course.cautious
+    barrier, costs, sigma, correction = course.barrier, course.costs, course.sigma, course.correction
     reached, tolerance, middle, steps = course.reached, course.tolerance, course.middle, course.steps
     stalled = course.stalled
     for t in range(lanes):
-        program[t], done[t] = -1, 1.0
+        program[t], vacancy[t] = -1, 1.0
     waiting, solved = 0, 0
     while True:
         for t in range(lanes):
-            if done[t] > 0.0 and program[t] >= 0:
+            if vacancy[t] > 0.0 and program[t] >= 0:
                 _from_lane(best, t, ends[program[t]])
                 task.reached[program[t]] = reached[t]
                 solved += 1
@@ -129,16 +129,16 @@ def _run_stage(least_mass, programs, task, ends, batch, course, packed, best, wo
                 n = program[t]
                 load(programs, task, n, batch, t)
                 if least_mass:
-                    _to_lane(task.way[n], packed, t)
+                    _to_lane(task.way[n], storage, t)
                     restart(batch, state, t)
                 else:
                     start(batch, state, t)
-                    _from_lane(packed, t, task.way[n])
+                    _from_lane(storage, t, task.way[n])
                 barrier[t], costs[t] = 1.0 * webs * 2 + cones + rows + 1, 0.0
                 for k in range(t, webs * lanes, lanes):
                     barrier[t] += 2.0 * batch.present[1, k]
                     costs[t] = max(costs[t], batch.mass[k])
-                done[t], cautious[t], steps[t], stalled[t], reached[t] = 0.0, 0.0, 0.0, 0.0, np.inf
+                vacancy[t], cautious[t], steps[t], stalled[t], reached[t] = 0.0, 0.0, 0.0, 0.0, np.inf
                 tolerance[t], middle[t] = task.tolerance[n], task.middle[n]
         if solved == number:
             return
@@ -161,13 +161,13 @@ def _run_stage(least_mass, programs, task, ends, batch, course, packed, best, wo
             stalled[t] += 1.0
             if middle[t] > 0.0 and gap[t] <= middle[t] and program[t] >= 0:
                 middle[t] = 0.0
-                _from_lane(packed, t, task.way[program[t]])
+                _from_lane(storage, t, task.way[program[t]])
             patience = 3.0 if reached[t] < 1e-6 else 20.0
             if reached[t] <= tolerance[t] or stalled[t] > patience or steps[t] >= _MOST_STEPS or not np.isfinite(merit):
-                done[t] = 1.0
+                vacancy[t] = 1.0
         for i in range(size):
             for t in range(lanes):
-                best[i, t] = packed[i, t] if better[t] > 0.0 else best[i, t]
+                best[i, t] = storage[i, t] if better[t] > 0.0 else best[i, t]
 
         factor(least_mass, batch, state, work)
         # predictor, then corrector
@@ -183,11 +183,11 @@ def _run_stage(least_mass, programs, task, ends, batch, course, packed, best, wo
                         # not past the middle of the optima in one step
                         sigma[t] = 0.5 * middle[t] / gap[t]
                     # after a short step back to the middle: without the second-order part, towards the centre
-                    wanted[t] = 1.0 - cautious[t]
+                    correction[t] = 1.0 - cautious[t]
                     if cautious[t] > 0.0:
                         sigma[t] = max(sigma[t], 0.5)
                     work.nu[t], work.keep[t] = gap[t] / barrier[t] * sigma[t], 1.0 - sigma[t]
-                second_order(wanted, work)
+                second_order(correction, work)
             direction(least_mass, batch, state, work)
             longest_step(batch, state, work, 1.0 / _STEP)
         for t in range(lanes):
@@ -197,7 +197,7 @@ def _run_stage(least_mass, programs, task, ends, batch, course, packed, best, wo
             for i in range(work.right.shape[0]):
                 total += work.right[i, t]
             if not (np.isfinite(total) and work.step[t] > 1e-8):
-                done[t], work.step[t] = 1.0, 0.0
+                vacancy[t], work.step[t] = 1.0, 0.0
             steps[t] += 1.0
         take_step(batch, state, work)
 
@@ -226,7 +226,7 @@ def solve(
     prices, mass_unit = np.zeros((2, number, rows)), np.ones(number)
     size, lanes = state_size(webs, cones, rows), min(_LANES, number)
     memory = new_memory(programs.row, webs, cones, rows, lanes)
-    packed, best = np.ones((size, lanes)), np.ones((size, lanes))
+    storage, best = np.ones((size, lanes)), np.ones((size, lanes))
     stages = 2 if least_mass else 1
     for begin in range(0, number, BLOCK):
         end = min(begin + BLOCK, number)
@@ -242,26 +242,26 @@ def solve(
             np.zeros(count),
             mass_unit[begin:end],
         )
-        run(share[begin:end], mass_tolerance, block, task, memory, packed, best)
+        run(share[begin:end], mass_tolerance, block, task, memory, storage, best)
         for stage in range(stages):
             _keep(task.best[stage], v[stage, begin:end], p[stage, begin:end], prices[stage, begin:end])
     return v, p, prices, mass_unit
 
 
 @in_place
-def run(share, mass_tolerance, programs, task, memory, packed, best):  # type: ignore[no-untyped-def]
+def run(share, mass_tolerance, programs, task, memory, storage, best):  # type: ignore[no-untyped-def]
     """The stages of every program, one after the other.
 
     Parameters
     ----------
     share, mass_tolerance : as of :func:`solve`.
-    packed, best : (S, L) states of the lanes, and the best of them so far.
+    storage, best : (S, L) states of the lanes, and the best of them so far.
     """
     batch, course, work = parts_of(memory)
     for stage in range(task.best.shape[0]):
         if stage > 0:
             _aim(programs, task, share, mass_tolerance)
-        _run_stage(stage > 0, programs, task, task.best[stage], batch, course, packed, best, work)
+        _run_stage(stage > 0, programs, task, task.best[stage], batch, course, storage, best, work)
 
 
 @inner

@@ -45,25 +45,25 @@ def largest_rows(programs, n, sizes, at_rest, row):  # type: ignore[no-untyped-d
 
 
 @folded
-def candidate(which, programs, n, sizes, solver, term, row, ceiling):  # type: ignore[no-untyped-def]
+def candidate(kind, programs, n, sizes, solver, term, row, ceiling):  # type: ignore[no-untyped-def]
     """Multipliers, in place: the solver's, those that prove the floor, and those that prove that rest is optimal.
 
     As :func:`optimizer.program.multipliers.resting_multipliers`; the last two need no solver.
 
     Parameters
     ----------
-    which : 0, 1 or 2.
+    kind : 0, 1 or 2.
     sizes : (J,) of the constants of the terms.
     solver : three arrays as the ones that are written to, (J,), (R,) and (I,).
     """
-    if which == 0:
+    if kind == 0:
         copy(solver[0], term)
         copy(solver[1], row)
         copy(solver[2], ceiling)
         return
-    largest_rows(programs, n, sizes, which == 2, row)
+    largest_rows(programs, n, sizes, kind == 2, row)
     for j in range(term.size):
-        scale = row[programs.owner[j]] / (sizes[j] if sizes[j] > 0.0 else 1.0) if which == 2 else 0.0
+        scale = row[programs.owner[j]] / (sizes[j] if sizes[j] > 0.0 else 1.0) if kind == 2 else 0.0
         term[j] = complex(programs.constant[n, j].real * scale, programs.constant[n, j].imag * scale)
     for i in range(ceiling.size):
         ceiling[i] = 0.0
@@ -80,12 +80,12 @@ def proof_of(programs, n, sizes, solver, share, objective, rest, term, row, ceil
     objective, rest : of a point, and of rest.
     """
     best, highest, first = _FIRST, -np.inf, 0.0
-    for which in range(3):
-        candidate(which, programs, n, sizes, solver, term, row, ceiling)
+    for kind in range(3):
+        candidate(kind, programs, n, sizes, solver, term, row, ceiling)
         lower = bound(0.0, 0.0, term, row, ceiling, programs, n, programs.cap)
         if lower > highest:
-            best, highest = which, lower
-        if which == 0:
+            best, highest = kind, lower
+        if kind == 0:
             first = lower
             # no floor proves more than itself, nor rest anything that counts where it is far from an optimum
             above = programs.floor.shape[1] == 1 and lower > programs.floor[n, 0]
@@ -165,7 +165,7 @@ def judge(  # type: ignore[no-untyped-def]
     sizes,
     rungs,
     work,
-    turned,
+    complex_work,
     scaled,
     unbalance,
     figures,
@@ -181,13 +181,13 @@ def judge(  # type: ignore[no-untyped-def]
 
     Parameters
     ----------
-    share, demand : (N,) as of :func:`optimizer.program.methods.compiled.both_stages`.
+    share, demand : (N,) as of :func:`optimizer.program.methods.compiled.stage_solutions`.
     ample, enough, mass_enough, heavier, rounding, tolerance : as of
         :class:`optimizer.program.compiled_evaluation.Shares`.
     smallest, lightest : (N, K) the ends; the first is written to: the smallest objective, rest among them.
     term, row, ceiling : (N, J), (N, R), (N, I) multipliers; those of the mass likewise.
     sizes : (N, J + I) of the constants of the terms, and of more.
-    rungs, work, turned, scaled : as of :func:`optimizer.program.kernel.settling.settle`.
+    rungs, work, complex_work, scaled : as of :func:`optimizer.program.kernel.settling.settle`.
     unbalance, figures : (N, K), and (4, N) as of :func:`optimizer.program.kernel.values.values`, to be written to.
     proven_term, proven_row, proven_ceiling : of the objective, to be written to.
     bounds : (3, N) of the objective, of the mass, and the largest objective that this one counts as an optimum.
@@ -201,29 +201,29 @@ def judge(  # type: ignore[no-untyped-def]
         u[:] = 0.0
         first, light_figures, rest = _NONE, _NONE, _NONE
         # in a loop, as it would be compiled once for each
-        for which in range(3):
-            of_point = value(best if which == 0 else light if which == 1 else u, programs, n)
-            first = of_point if which == 0 else first
-            light_figures = of_point if which == 1 else light_figures
+        for kind in range(3):
+            of_point = value(best if kind == 0 else light if kind == 1 else u, programs, n)
+            first = of_point if kind == 0 else first
+            light_figures = of_point if kind == 1 else light_figures
             rest = of_point
         own, proof = (term[n], row[n], ceiling[n]), (proven_term[n], proven_row[n], proven_ceiling[n])
         lower = proof_of(programs, n, sizes[n], own, share[n], first[0], rest[0], proof[0], proof[1], proof[2])
-        chosen = rest
+        result = rest
         if is_better(rest, first, tolerance):
-            chosen = first
+            result = first
         else:
             best[:] = 0.0
-        smallest_figures = chosen
+        smallest_figures = result
         copy(best, u)
         # the lightest by its room below the largest objective of an optimum
-        target = larger(chosen[0], lower + ample * share[n] - chosen[3])
-        counted, mass_bound = larger(chosen[0], lower) + share[n], 0.0
+        target = larger(result[0], lower + ample * share[n] - result[3])
+        level, mass_bound = larger(result[0], lower) + share[n], 0.0
         if least_mass:
             # what can be kept up to rounding is not traded for their tolerance
             allowance = rounding if light_figures[2] < rounding else light_figures[2]
             allowance = tolerance if allowance > tolerance else allowance
-            if light_figures[1] < chosen[1] and light_figures[0] <= target and light_figures[2] <= allowance:
-                chosen = light_figures
+            if light_figures[1] < result[1] and light_figures[0] <= target and light_figures[2] <= allowance:
+                result = light_figures
                 copy(light, u)
             # moved towards the smallest just so far that the objective, which is convex, meets the target
             step = step_towards(light_figures, smallest_figures, target)
@@ -234,24 +234,26 @@ def judge(  # type: ignore[no-untyped-def]
                         step * (best[k].real - light[k].real), step * (best[k].imag - light[k].imag)
                     )
                 near = value(nearer, programs, n)
-                if near[1] < chosen[1] and near[0] <= target and near[2] <= allowance:
-                    chosen = near
+                if near[1] < result[1] and near[0] <= target and near[2] <= allowance:
+                    result = near
                     copy(nearer, u)
-            if rest[1] < chosen[1] and rest[0] <= target and rest[2] <= allowance:
-                chosen = rest
+            if rest[1] < result[1] and rest[0] <= target and rest[2] <= allowance:
+                result = rest
                 u[:] = 0.0
-            mass_bound = bound(1.0, counted, mass_term[n], mass_row[n], mass_ceiling[n], programs, n, programs.counted)
-        loose = demand[n] > share[n] and chosen[0] - lower <= demand[n]
-        done = (loose or smallest_figures[0] - lower <= enough * share[n]) and chosen[2] <= rounding
+            mass_bound = bound(
+                1.0, level, mass_term[n], mass_row[n], mass_ceiling[n], programs, n, programs.tolerant_cap
+            )
+        loose = demand[n] > share[n] and result[0] - lower <= demand[n]
+        is_enough = (loose or smallest_figures[0] - lower <= enough * share[n]) and result[2] <= rounding
         heaviest = np.inf
         if least_mass:
             # what counts as an optimum is told from a point that keeps the ceilings
-            done = done and smallest_figures[2] <= rounding
-            done = done and chosen[1] - mass_bound <= mass_enough * chosen[1]
+            is_enough = is_enough and smallest_figures[2] <= rounding
+            is_enough = is_enough and result[1] - mass_bound <= mass_enough * result[1]
             heaviest = mass_bound / (1.0 - heavier)
         else:
             target = lower + enough * share[n]
-        figures[0, n], figures[1, n], figures[2, n], figures[3, n] = chosen
-        settle_point(u, figures, target, heaviest, rounding, rungs, programs, n, work, turned, scaled)
-        bounds[0, n], bounds[1, n], bounds[2, n], certified[n] = lower, mass_bound, counted, done
+        figures[0, n], figures[1, n], figures[2, n], figures[3, n] = result
+        settle_point(u, figures, target, heaviest, rounding, rungs, programs, n, work, complex_work, scaled)
+        bounds[0, n], bounds[1, n], bounds[2, n], certified[n] = lower, mass_bound, level, is_enough
         clean[n] = is_clean(u, programs.region.radius[n], rungs[0, 0])

@@ -47,13 +47,13 @@ class Course(NamedTuple):
     """What is kept of the program in each lane (L,)."""
 
     program: np.ndarray  # its number; -1 for none
-    done: Real  # 1 where the lane has to take a program, else 0
+    vacancy: Real  # 1 where the lane has to take a program, else 0
     better: Real  # 1 where its state is the best so far
     cautious: Real  # 1 where its last step was short
     barrier: Real  # number of products of slack and multiplier
     costs: Real  # largest cost of a web
     sigma: Real  # share of the gap that a step aims at
-    wanted: Real  # 1 where a step has a second-order part
+    correction: Real  # 1 where a step has a second-order part
     reached: Real  # smallest gap and residual
     tolerance: Real
     middle: Real
@@ -167,13 +167,13 @@ def parts_of(memory):  # type: ignore[no-untyped-def]
     )
     course = Course(
         program=memory.program,
-        done=lane[0],
+        vacancy=lane[0],
         better=lane[1],
         cautious=lane[2],
         barrier=lane[3],
         costs=lane[4],
         sigma=lane[5],
-        wanted=lane[6],
+        correction=lane[6],
         reached=lane[7],
         tolerance=lane[8],
         middle=lane[9],
@@ -232,20 +232,20 @@ def state_size(webs: int, cones: int, rows: int) -> int:
 
 
 @inner
-def views(packed, webs, cones, rows):  # type: ignore[no-untyped-def]
+def views(storage, webs, cones, rows):  # type: ignore[no-untyped-def]
     """A packed state (S, L) as its parts."""
-    lanes, every = packed.shape[1], webs + cones
+    lanes, every = storage.shape[1], webs + cones
     at_s = 9 * webs
     at_rho = at_s + 6 * every
     return State(
-        packed[: 3 * webs].reshape((3, webs * lanes)),
-        packed[3 * webs : 6 * webs].reshape((3, webs * lanes)),
-        packed[6 * webs : at_s].reshape((3, webs * lanes)),
-        packed[at_s : at_s + 3 * every].reshape((3, every * lanes)),
-        packed[at_s + 3 * every : at_rho].reshape((3, every * lanes)),
-        packed[at_rho : at_rho + rows],
-        packed[at_rho + rows : at_rho + 2 * rows],
-        packed[at_rho + 2 * rows :],
+        storage[: 3 * webs].reshape((3, webs * lanes)),
+        storage[3 * webs : 6 * webs].reshape((3, webs * lanes)),
+        storage[6 * webs : at_s].reshape((3, webs * lanes)),
+        storage[at_s : at_s + 3 * every].reshape((3, every * lanes)),
+        storage[at_s + 3 * every : at_rho].reshape((3, every * lanes)),
+        storage[at_rho : at_rho + rows],
+        storage[at_rho + rows : at_rho + 2 * rows],
+        storage[at_rho + 2 * rows :],
     )
 
 
@@ -281,6 +281,6 @@ def move(step, change, value):  # type: ignore[no-untyped-def]
 
 
 @inner
-def product(wanted, first, second, result):  # type: ignore[no-untyped-def]
+def product(factor, first, second, result):  # type: ignore[no-untyped-def]
     for k in range(result.size):
-        result[k] = wanted[k] * first[k] * second[k]
+        result[k] = factor[k] * first[k] * second[k]

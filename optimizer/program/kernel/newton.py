@@ -26,9 +26,9 @@ from optimizer.program.kernel.cones import (
 from optimizer.program.kernel.lanes import add_products, move, product, raise_to_size, spread
 from optimizer.program.kernel.webs import (
     eliminate_webs,
+    in_frame,
     lengths,
     peaks_of,
-    turned,
     web_multipliers,
     web_residuals,
     web_right_sides,
@@ -59,7 +59,7 @@ def residuals(least_mass, batch, state, work):  # type: ignore[no-untyped-def]
     raise_to_size(work.rd[0], work.dual)
     for i in range(work.a.shape[1]):
         work.a[0, i], work.a[1, i] = batch.constant[0, i], batch.constant[1, i]
-    turned(state.v, batch.sine, batch.centre, work.u)
+    in_frame(state.v, batch.sine, batch.centre, work.u)
     peaks_of(batch.influence, work.u, work.a)
     for r in range(rows):
         for t in range(lanes):
@@ -116,10 +116,10 @@ def _add_influence(influence, xx, xy, yy, where, m):  # type: ignore[no-untyped-
             a, b = where[i], where[j]
             for k in range(0, every, lanes):
                 for t in range(lanes):
-                    both = influence[i, k + t] * influence[j, k + t]
-                    m[a, b, t] += both * xx[k + t]
-                    m[a + 1, b, t] += both * xy[k + t]
-                    m[a + 1, b + 1, t] += both * yy[k + t]
+                    weight = influence[i, k + t] * influence[j, k + t]
+                    m[a, b, t] += weight * xx[k + t]
+                    m[a + 1, b, t] += weight * xy[k + t]
+                    m[a + 1, b + 1, t] += weight * yy[k + t]
                 if i != j:
                     for t in range(lanes):
                         m[a, b + 1, t] += influence[i, k + t] * influence[j, k + t] * xy[k + t]
@@ -153,7 +153,7 @@ def factor(least_mass, batch, state, work):  # type: ignore[no-untyped-def]
     for t in range(lanes):
         least[at_budget, t] = m[at_budget, at_budget, t] = state.rest[0, t] / state.rest[1, t]
     add_products(batch.budget, e[0], m[at_budget, at_budget])
-    turned(e, batch.sine, batch.centre, work.u)
+    in_frame(e, batch.sine, batch.centre, work.u)
     work.a[:] = 0.0
     peaks_of(batch.influence, work.u, work.a)
     for i in range(cones):
@@ -176,15 +176,15 @@ def first_order(work):  # type: ignore[no-untyped-def]
 
 
 @inner
-def second_order(wanted, work):  # type: ignore[no-untyped-def]
-    """What the products miss in the direction found last where ``wanted`` (L,) is 1; nothing where it is 0."""
-    spread(wanted, work.per_cone)
+def second_order(share, work):  # type: ignore[no-untyped-def]
+    """What the products miss in the direction found last where ``share`` (L,) is 1; nothing where it is 0."""
+    spread(share, work.per_cone)
     corrector(work.per_cone, work.w, work.eta, work.ds, work.dz, work.d)
     for c in range(3):
         product(work.per_cone, work.dq[c], work.dzq[c], work.cq[c])
     for r in range(work.c_rho.shape[0]):
-        product(wanted, work.d_rho[r], work.dz_rho[r], work.c_rho[r])
-    product(wanted, work.d_rest[0], work.d_rest[1], work.c_rest[0])
+        product(share, work.d_rho[r], work.dz_rho[r], work.c_rho[r])
+    product(share, work.d_rest[0], work.d_rest[1], work.c_rest[0])
 
 
 @inner
@@ -253,7 +253,7 @@ def direction(least_mass, batch, state, work):  # type: ignore[no-untyped-def]
     for k in range(batch.sine.size):
         work.own[0, k], work.own[1, k], work.own[2, k] = e[0, k], e[1, k], e[2, k]
     web_steps(work.block, batch.cosine, work.own, work.edges)
-    turned(work.own, batch.sine, batch.centre, work.u)
+    in_frame(work.own, batch.sine, batch.centre, work.u)
     work.a[:] = 0.0
     peaks_of(batch.influence, work.u, work.a)
     right[:] = 0.0
@@ -301,7 +301,7 @@ def direction(least_mass, batch, state, work):  # type: ignore[no-untyped-def]
     d_left[:] = 0.0
     add_products(batch.budget, work.dq[0], d_left)
     # the vectors of the peaks from the webs, which keeps them consistent
-    turned(e, batch.sine, batch.centre, work.u)
+    in_frame(e, batch.sine, batch.centre, work.u)
     work.a[:] = 0.0
     peaks_of(batch.influence, work.u, work.a)
     spread(keep, work.per_cone)

@@ -9,7 +9,7 @@ from optimizer.program.kernel.compiling import inner, kernel
 
 
 @inner
-def farthest_turned(vectors, fixed, angle, numbers, turned, order):  # type: ignore[no-untyped-def]
+def farthest_rotation(vectors, fixed, angle, numbers, jumps, order):  # type: ignore[no-untyped-def]
     """Largest |fixed + sum_k v_k e^{j psi_k}| of vectors (K,), |psi_k| <= angle below pi/2.
 
     Along direction phi a vector v gives |v| cos(max(|phi - arg v| - angle, 0)). While phi grows from -pi every vector
@@ -18,7 +18,7 @@ def farthest_turned(vectors, fixed, angle, numbers, turned, order):  # type: ign
 
     Parameters
     ----------
-    numbers, turned, order : (2, 3 K) real, (3 K,) complex and (3 K,) integers, to be written to.
+    numbers, jumps, order : (2, 3 K) real, (3 K,) complex and (3 K,) integers, to be written to.
     """
     webs, turn, start, level = vectors.size, 2.0 * np.pi, numbers[0], numbers[1]
     to_ahead, to_behind = np.exp(1j * angle), np.exp(-1j * angle)
@@ -27,9 +27,9 @@ def farthest_turned(vectors, fixed, angle, numbers, turned, order):  # type: ign
         v = vectors[k]
         size, towards = abs(v), np.arctan2(v.imag, v.real)
         ahead, behind = v * to_ahead, v * to_behind
-        start[k], turned[k], level[k] = towards - angle, -behind, size
-        start[webs + k], turned[webs + k], level[webs + k] = towards + angle, ahead, -size
-        start[2 * webs + k], turned[2 * webs + k], level[2 * webs + k] = towards + np.pi, behind - ahead, 0.0
+        start[k], jumps[k], level[k] = towards - angle, -behind, size
+        start[webs + k], jumps[webs + k], level[webs + k] = towards + angle, ahead, -size
+        start[2 * webs + k], jumps[2 * webs + k], level[2 * webs + k] = towards + np.pi, behind - ahead, 0.0
         for event in range(k, 3 * webs, webs):
             start[event] = (start[event] + np.pi) % turn - np.pi
         # what comes first tells what was before, whichever way a vector along the axis rounds
@@ -51,7 +51,7 @@ def farthest_turned(vectors, fixed, angle, numbers, turned, order):  # type: ign
         along = 1.0 if begin <= best <= end else max(np.cos(begin - best), np.cos(end - best))
         worst = max(worst, abs(vector) * along + flat)
         if at < 3 * webs:
-            vector += turned[order[at]]
+            vector += jumps[order[at]]
             flat += level[order[at]]
         begin = end
     return worst
@@ -86,12 +86,12 @@ def farthest_scaled(vectors, middle, share, towards, ahead, order):  # type: ign
 
 
 @kernel
-def worst_turned(vectors, fixed, angle, worst):  # type: ignore[no-untyped-def]
-    """What :func:`farthest_turned` finds (M,) of vectors (M, K) beside fixed ones (M,)."""
+def worst_rotation(vectors, fixed, angle, worst):  # type: ignore[no-untyped-def]
+    """What :func:`farthest_rotation` finds (M,) of vectors (M, K) beside fixed ones (M,)."""
     number, webs = vectors.shape
-    numbers, turned, order = np.empty((2, 3 * webs)), np.empty(3 * webs, np.complex128), np.empty(3 * webs, np.int64)
+    numbers, jumps, order = np.empty((2, 3 * webs)), np.empty(3 * webs, np.complex128), np.empty(3 * webs, np.int64)
     for m in range(number):
-        worst[m] = farthest_turned(vectors[m], fixed[m], angle, numbers, turned, order)
+        worst[m] = farthest_rotation(vectors[m], fixed[m], angle, numbers, jumps, order)
 
 
 @kernel
@@ -120,7 +120,7 @@ def objectives(owner, group, floor, scalar, constant, influence, across, u, angl
     """
     number, webs = u.shape
     sums, vectors = np.empty((3, floor.shape[1])), np.empty(webs, np.complex128)
-    numbers, turned, order = np.empty((2, 3 * webs)), np.empty(3 * webs, np.complex128), np.empty(3 * webs, np.int64)
+    numbers, jumps, order = np.empty((2, 3 * webs)), np.empty(3 * webs, np.complex128), np.empty(3 * webs, np.int64)
     for n in range(number):
         sums[:] = 0.0
         for j in range(owner.size):
@@ -133,8 +133,8 @@ def objectives(owner, group, floor, scalar, constant, influence, across, u, angl
                 middle = complex(middle.real, 0.0)
             row = owner[j]
             sums[0, row] += abs(middle)
-            sums[1, row] += farthest_turned(vectors, constant[n, j], angle, numbers, turned, order)
-            sums[2, row] += farthest_scaled(vectors, middle, share, numbers[0], turned, order)
+            sums[1, row] += farthest_rotation(vectors, constant[n, j], angle, numbers, jumps, order)
+            sums[2, row] += farthest_scaled(vectors, middle, share, numbers[0], jumps, order)
         for way in range(3):
             objective[way, n], largest = 0.0, -np.inf
             for r in range(floor.shape[1]):

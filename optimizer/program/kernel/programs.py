@@ -36,7 +36,7 @@ class Programs(NamedTuple):
     magnitude: Real  # (N, J + I, K)
     floor: Real  # (N, R)
     cap: Real  # (N, I)
-    counted: Real  # (N, I) cap up to which a ceiling counts as kept
+    tolerant_cap: Real  # (N, I) cap up to which a ceiling counts as kept
     size: Real  # (N, I)
     region: Region
     numbers: Real  # (6, ...) work, as are the next

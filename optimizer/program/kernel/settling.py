@@ -21,36 +21,36 @@ def copy(numbers, place):  # type: ignore[no-untyped-def]
 
 
 @folded
-def put(u, dust, touched, region, n, room, settled):  # type: ignore[no-untyped-def]
+def snap(u, dust, touched, region, n, room, new):  # type: ignore[no-untyped-def]
     """What is next to nothing, or to a limit, there (K,), and the room of the others (K,); whether anything was, and
     whether that was next to nothing."""
-    most, moved, dusty = 0.0, False, False
+    most, is_new, dusty = 0.0, False, False
     for k in range(u.size):
         room[k] = length(u[k])
         most = max(most, room[k] / region.radius[n, k])
     for k in range(u.size):
         size, max_mass, sine = room[k], region.max_mass[n, k], region.sine[n, k]
-        mass, settled[k], edge = size / region.radius[n, k], u[k], False
+        mass, new[k], edge = size / region.radius[n, k], u[k], False
         none = mass > 0.0 and mass <= dust * most
         next_to = mass >= max_mass * (1.0 - touched)
         if none:
-            settled[k] = 0.0
+            new[k] = 0.0
         elif next_to and mass < max_mass:
-            settled[k] = region.radius[n, k] * max_mass / size * u[k]
+            new[k] = region.radius[n, k] * max_mass / size * u[k]
         if not (region.free[n, k] or none) and size > 0.0:
             cosine, centre = region.cosine[n, k], region.centre[n, k]
             v = u[k] * np.conj(centre)
             edge = v.real * sine - abs(v.imag) * cosine <= touched * sine * size
             if edge:
                 side = complex(cosine, np.copysign(sine, v.imag))
-                settled[k] = length(settled[k]) * side * centre
-        moved, dusty = moved or settled[k] != u[k], dusty or none
+                new[k] = length(new[k]) * side * centre
+        is_new, dusty = is_new or new[k] != u[k], dusty or none
         room[k] = 0.0 if none or edge or next_to else size
-    return moved, dusty
+    return is_new, dusty
 
 
 @folded
-def make_up(influence, across, region, n, room, left, work, turned, scaled, u):  # type: ignore[no-untyped-def]
+def make_up(influence, across, region, n, room, left, work, complex_work, scaled, u):  # type: ignore[no-untyped-def]
     """Add to u (K,) the least change, relative to a room, that takes back what it changed; of alike webs alike.
 
     Parameters
@@ -59,16 +59,16 @@ def make_up(influence, across, region, n, room, left, work, turned, scaled, u): 
     room : (K,).
     left : (J,) complex, what is to be taken back.
     work : (3, max(2 J, 2 K)) complex, to be written to, as are the next.
-    turned : (2, J, K) complex.
+    complex_work : (2, J, K) complex.
     scaled : (3, J, K); of alike webs (3, 2 J, 2 K).
     """
-    (terms, webs), row, made, apart = influence.shape, work[0], work[1], not region.leader.size
+    (terms, webs), row, correction, apart = influence.shape, work[0], work[1], not region.leader.size
     if apart and across.shape[1] > 0:
         for j in range(terms):
             for k in range(webs):
-                turned[0, j, k] = complex(influence[j, k] * room[k], across[j, k] * room[k])
-        made[:webs] = 0.0
-        change(turned[0], left, _ONCE, row[:webs], turned[1], made[:webs])
+                complex_work[0, j, k] = complex(influence[j, k] * room[k], across[j, k] * room[k])
+        correction[:webs] = 0.0
+        change(complex_work[0], left, _ONCE, row[:webs], complex_work[1], correction[:webs])
     else:
         rows, unknowns = (terms, webs) if apart else (2 * terms, 2 * webs)
         if apart:
@@ -89,41 +89,41 @@ def make_up(influence, across, region, n, room, left, work, turned, scaled, u): 
                     scaled[0, j, webs + first] -= sign * part.imag
                     scaled[0, terms + j, webs + first] += sign * part.real
                 work[2, j], work[2, terms + j] = left[j].real, left[j].imag
-        made[:unknowns] = 0.0
-        change_of_real(scaled[0], work[2, :rows], _ONCE, scaled[2, 0], scaled[1], made[:unknowns])
+        correction[:unknowns] = 0.0
+        change_of_real(scaled[0], work[2, :rows], _ONCE, scaled[2, 0], scaled[1], correction[:unknowns])
     for k in range(webs):
         if apart:
-            u[k] += room[k] * made[k]
+            u[k] += room[k] * correction[k]
         else:
             first = region.leader[k]
-            load = room[first] * complex(made[first].real, made[webs + first].real)
+            load = room[first] * complex(correction[first].real, correction[webs + first].real)
             u[k] += region.turn[n, k] * (load.conjugate() if region.mirrored[k] else load)
 
 
 @folded
-def balance(u, influence, across, region, n, room, work, turned, scaled, new):  # type: ignore[no-untyped-def]
+def balance(u, influence, across, region, n, room, work, complex_work, scaled, new):  # type: ignore[no-untyped-def]
     """Make up for what differs between u and new (K,), which is written to, and bring it within all limits.
 
     Parameters
     ----------
-    influence, across, room, turned, scaled : as of :func:`make_up`.
+    influence, across, room, complex_work, scaled : as of :func:`make_up`.
     work : (4, max(2 J, 2 K)) complex, to be written to.
     """
     left, terms = work[3], influence.shape[0]
     for j in range(terms):
         x, y = 0.0, 0.0
         for k in range(u.size):
-            moved = new[k] - u[k]
-            x, y = x + influence[j, k] * moved.real, y + influence[j, k] * moved.imag
+            step = new[k] - u[k]
+            x, y = x + influence[j, k] * step.real, y + influence[j, k] * step.imag
             if across.shape[1] > 0:
-                x, y = x - across[j, k] * moved.imag, y + across[j, k] * moved.real
+                x, y = x - across[j, k] * step.imag, y + across[j, k] * step.real
         left[j] = complex(x, y)
-    make_up(influence, across, region, n, room, left[:terms], work, turned, scaled, new)
+    make_up(influence, across, region, n, room, left[:terms], work, complex_work, scaled, new)
     into(new, region, n, work[0])
 
 
 @in_place
-def rebalance(u, near, influence, across, region, room, work, turned, scaled, new, moved):  # type: ignore[no-untyped-def]
+def rebalance(u, near, influence, across, region, room, work, complex_work, scaled, new, is_new):  # type: ignore[no-untyped-def]
     """Of N points (N, K) what is near to nothing, or to a limit, there, and the others made up for it.
 
     Parameters
@@ -131,18 +131,18 @@ def rebalance(u, near, influence, across, region, room, work, turned, scaled, ne
     near : (2,) share of the largest mass that is next to nothing, and of a limit that is next to it; below 0 where
         ``new`` says what is put, and ``room`` which others there are.
     influence, across : (N, J, K) on what is to stay as it is, as of :func:`make_up`.
-    room, new, moved : (N, K), (N, K) and (N,) bool, the points and which of them are others, to be written to.
+    room, new, is_new : (N, K), (N, K) and (N,) bool, the points and which of them are others, to be written to.
     """
     for n in range(u.shape[0]):
-        moved[n] = near[0] < 0.0
-        if not moved[n]:
-            moved[n], _ = put(u[n], near[0], near[1], region, n, room[n], new[n])
-        if moved[n]:
-            balance(u[n], influence[n], across[n], region, n, room[n], work, turned, scaled, new[n])
+        is_new[n] = near[0] < 0.0
+        if not is_new[n]:
+            is_new[n], _ = snap(u[n], near[0], near[1], region, n, room[n], new[n])
+        if is_new[n]:
+            balance(u[n], influence[n], across[n], region, n, room[n], work, complex_work, scaled, new[n])
 
 
 @folded
-def settle_point(u, figures, target, heaviest, rounding, rungs, programs, n, work, turned, scaled):  # type: ignore[no-untyped-def]
+def settle_point(u, figures, target, heaviest, rounding, rungs, programs, n, work, complex_work, scaled):  # type: ignore[no-untyped-def]
     """A point (K,) of program n, and what it comes to (4, N), in place, parameters as of :func:`settle`."""
     webs, influence, across, region = u.size, programs.influence[n], programs.across[n], programs.region
     new, room, rung, in_vain = work[4, :webs], programs.numbers[1, :webs], 0, -1.0
@@ -151,9 +151,9 @@ def settle_point(u, figures, target, heaviest, rounding, rungs, programs, n, wor
         rung += 1
         if dust == 0.0 and touched == in_vain:
             continue
-        moved, dusty = put(u, dust, touched, region, n, room, new)
-        if moved:
-            balance(u, influence, across, region, n, room, work, turned, scaled, new)
+        is_new, dusty = snap(u, dust, touched, region, n, room, new)
+        if is_new:
+            balance(u, influence, across, region, n, room, work, complex_work, scaled, new)
             objective, mass, excess, off = value(new, programs, n)
             no_worse = objective <= max(target, figures[0, n]) + off
             no_worse = no_worse and excess <= max(figures[2, n], rounding) and mass <= max(figures[1, n], heaviest)
@@ -168,7 +168,7 @@ def settle_point(u, figures, target, heaviest, rounding, rungs, programs, n, wor
 
 
 @in_place
-def settle(u, figures, target, heaviest, rounding, rungs, programs, work, turned, scaled):  # type: ignore[no-untyped-def]
+def settle(u, figures, target, heaviest, rounding, rungs, programs, work, complex_work, scaled):  # type: ignore[no-untyped-def]
     """N points and what they come to, in place.
 
     Parameters
@@ -178,7 +178,7 @@ def settle(u, figures, target, heaviest, rounding, rungs, programs, work, turned
     rounding : of an excess over the ceilings.
     rungs : (n, 3) share of the largest mass that is next to nothing, share of a limit that is next to it, and which
         rung is next where this one moved something, and was no worse, or nothing: the last is n.
-    work, turned, scaled : (5, ...) and others as of :func:`make_up`, to be written to.
+    work, complex_work, scaled : (5, ...) and others as of :func:`make_up`, to be written to.
     """
     for n in range(target.size):
-        settle_point(u[n], figures, target[n], heaviest[n], rounding, rungs, programs, n, work, turned, scaled)
+        settle_point(u[n], figures, target[n], heaviest[n], rounding, rungs, programs, n, work, complex_work, scaled)

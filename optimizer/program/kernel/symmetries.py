@@ -44,7 +44,7 @@ def means(  # type: ignore[no-untyped-def]
     counts,
     along,
     own,
-    moved,
+    image,
     order,
     begin,
     end,
@@ -59,7 +59,7 @@ def means(  # type: ignore[no-untyped-def]
     kinds : (K,) webs of different numbers are never alike.
     u : (N, K) kg m.
     relative, level, ones, counts : (Q, K), (Q,), (Q,) and (Q,) bool, memory to be written to, as is the next.
-    along, own, moved, order, begin, end : (K,), (K,), (K,) complex, (K,) and (2, K), (2, K) integers.
+    along, own, image, order, begin, end : (K,), (K,), (K,) complex, (K,) and (2, K), (2, K) integers.
     middle : (N, K) the same as u, to be written to.
     """
     number, terms, webs = influence.shape
@@ -70,7 +70,7 @@ def means(  # type: ignore[no-untyped-def]
         _scaled(influence[n], relative, level)
         # most programs have hardly any, which is told at little cost
         _in_line(relative, level, order, along)
-        straight, turned_round = (1, 1), (0, 0)
+        straight, reversal = (1, 1), (0, 0)
         if not _apart(along):
             _ranges(order, along, 1.0, begin[0], end[0])
             straight = _partners(relative, ones, limits, kinds, n, order, begin[0], end[0])
@@ -80,39 +80,39 @@ def means(  # type: ignore[no-untyped-def]
         # the web at either end has an image at the other
         if not abs(along[0] + along[webs - 1]) > 2.0 * _SAME:
             _ranges(order, along, -1.0, begin[1], end[1])
-            turned_round = _partners(relative, level, limits, kinds, n, order, begin[1], end[1])
-        counted, changed = False, False
+            reversal = _partners(relative, level, limits, kinds, n, order, begin[1], end[1])
+        has_counts, changed = False, False
         for symmetry in range(4):
             # straight or from end to end, as they are or as mirror images
             signs = level if symmetry % 2 else ones
-            least, most = turned_round if symmetry % 2 else straight
+            least, most = reversal if symmetry % 2 else straight
             if least == 0 or (symmetry == 0 and most == 1):
                 for k in range(webs):
                     own[k] = 1.0 if symmetry == 0 else own[k]
                 continue
-            if not counted:
-                counted = True
+            if not has_counts:
+                has_counts = True
                 for q in range(terms):
-                    counts[q] = abs(constant[n, q]) > _NOTHING * _done(influence[n, q], u[n])
+                    counts[q] = abs(constant[n, q]) > _NOTHING * _effect_size(influence[n, q], u[n])
             turn, success = _turn(constant[n], counts, signs, symmetry > 1)
             if not success and symmetry > 0:
                 continue
             first, last = begin[symmetry % 2], end[symmetry % 2]
             for k in range(webs):
                 count = 0.0
-                moved[k] = 0.0
+                image[k] = 0.0
                 for i in range(first[k], last[k]):
-                    other = order[i]
-                    if _is_image(relative, signs, limits, kinds, n, turn, symmetry > 1, k, other):
+                    partner = order[i]
+                    if _is_image(relative, signs, limits, kinds, n, turn, symmetry > 1, k, partner):
                         count += 1.0
-                        moved[k] += np.conj(middle[n, other]) if symmetry > 1 else middle[n, other]
+                        image[k] += np.conj(middle[n, partner]) if symmetry > 1 else middle[n, partner]
                 if symmetry == 0:
                     own[k] = count
                 success = success and count == own[k]
-                moved[k] = turn * moved[k] / max(count, 1.0)
+                image[k] = turn * image[k] / max(count, 1.0)
             if success:
                 for k in range(webs):
-                    middle[n, k] = moved[k] if symmetry == 0 else 0.5 * (middle[n, k] + moved[k])
+                    middle[n, k] = image[k] if symmetry == 0 else 0.5 * (middle[n, k] + image[k])
                     changed = changed or middle[n, k] != u[n, k]
         if changed and _worse(constant[n], influence[n], limits.radius[n], u[n], middle[n]):
             for k in range(webs):
@@ -142,12 +142,12 @@ def _close(first, second):  # type: ignore[no-untyped-def]
 
 
 @inner
-def _same_limits(limits, kinds, n, k, other):  # type: ignore[no-untyped-def]
+def _same_limits(limits, kinds, n, k, partner):  # type: ignore[no-untyped-def]
     """Whether two webs of program n have one radius, one largest mass and are of one kind."""
     return (
-        kinds[k] == kinds[other]
-        and _close(limits.radius[n, k], limits.radius[n, other])
-        and _close(limits.max_mass[n, k], limits.max_mass[n, other])
+        kinds[k] == kinds[partner]
+        and _close(limits.radius[n, k], limits.radius[n, partner])
+        and _close(limits.max_mass[n, k], limits.max_mass[n, partner])
     )
 
 
@@ -188,21 +188,21 @@ def _ranges(order, along, sign, begin, end):  # type: ignore[no-untyped-def]
     first, last = 0, 0
     for i in range(webs):
         place = i if sign > 0.0 else webs - 1 - i
-        wanted = sign * along[place]
-        while first < webs and along[first] < wanted - 2.0 * _SAME:
+        target = sign * along[place]
+        while first < webs and along[first] < target - 2.0 * _SAME:
             first += 1
-        while last < webs and along[last] <= wanted + 2.0 * _SAME:
+        while last < webs and along[last] <= target + 2.0 * _SAME:
             last += 1
         begin[order[place]], end[order[place]] = first, last
 
 
 @inner
-def _alike(relative, signs, limits, kinds, n, k, other):  # type: ignore[no-untyped-def]
+def _alike(relative, signs, limits, kinds, n, k, partner):  # type: ignore[no-untyped-def]
     """Whether two webs of program n are alike, and have the same influences with these signs."""
     same = True
     for q in range(relative.shape[0]):
-        same = same and abs(relative[q, k] - signs[q] * relative[q, other]) <= _SAME
-    return same and _same_limits(limits, kinds, n, k, other)
+        same = same and abs(relative[q, k] - signs[q] * relative[q, partner]) <= _SAME
+    return same and _same_limits(limits, kinds, n, k, partner)
 
 
 @inner
@@ -222,15 +222,15 @@ def _partners(relative, signs, limits, kinds, n, order, begin, end):  # type: ig
 
 
 @inner
-def _is_image(relative, signs, limits, kinds, n, turn, mirrored, k, other):  # type: ignore[no-untyped-def]
+def _is_image(relative, signs, limits, kinds, n, turn, mirrored, k, partner):  # type: ignore[no-untyped-def]
     """Whether web k may take what another has, turned or mirrored, and has its influences with these signs."""
-    if not _alike(relative, signs, limits, kinds, n, k, other) or limits.free[n, k] != limits.free[n, other]:
+    if not _alike(relative, signs, limits, kinds, n, k, partner) or limits.free[n, k] != limits.free[n, partner]:
         return False
     if limits.free[n, k]:
         return True
-    there = np.conj(limits.centre[n, other]) if mirrored else limits.centre[n, other]
+    there = np.conj(limits.centre[n, partner]) if mirrored else limits.centre[n, partner]
     apart = abs(limits.centre[n, k] - turn * there)
-    return apart <= _SAME and abs(limits.half_angle_sin[n, k] - limits.half_angle_sin[n, other]) <= _SAME
+    return apart <= _SAME and abs(limits.half_angle_sin[n, k] - limits.half_angle_sin[n, partner]) <= _SAME
 
 
 @inner
@@ -244,14 +244,14 @@ def _turn(constant, counts, signs, mirrored):  # type: ignore[no-untyped-def]
     turn, success = 1.0 + 0.0j, False
     for q in range(constant.size):
         if counts[q]:
-            wanted = signs[q] + 0.0j
+            quotient = signs[q] + 0.0j
             if mirrored:
                 size = abs(constant[q])
                 unit = complex(constant[q].real / size, constant[q].imag / size)
-                wanted = signs[q] * (unit * unit)
+                quotient = signs[q] * (unit * unit)
             if not success:
-                turn, success = wanted, True
-            elif not abs(wanted - turn) <= _SAME:
+                turn, success = quotient, True
+            elif not abs(quotient - turn) <= _SAME:
                 return 1.0 + 0.0j, False
     return turn, success
 
@@ -266,19 +266,19 @@ def _size(constant, influence, u):  # type: ignore[no-untyped-def]
 
 
 @inner
-def _done(influence, u):  # type: ignore[no-untyped-def]
+def _effect_size(influence, u):  # type: ignore[no-untyped-def]
     """What counterweights do to a term, one by one."""
-    done = 0.0
+    size = 0.0
     for k in range(u.size):
-        done += abs(influence[k]) * length(u[k])
-    return done
+        size += abs(influence[k]) * length(u[k])
+    return size
 
 
 @inner
 def _worse(constant, influence, radius, u, candidate):  # type: ignore[no-untyped-def]
     """Whether a term is larger than it was, or the mass, by more than rounding."""
     for q in range(constant.size):
-        allowed = _ROUNDING * (_done(influence[q], candidate) + abs(constant[q]))
+        allowed = _ROUNDING * (_effect_size(influence[q], candidate) + abs(constant[q]))
         if not _size(constant[q], influence[q], candidate) <= _size(constant[q], influence[q], u) + allowed:
             return True
     mass, before = 0.0, 0.0

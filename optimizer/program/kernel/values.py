@@ -30,19 +30,19 @@ def value(u, programs, n):  # type: ignore[no-untyped-def]
     rows = programs.numbers[0]
     influence, across, magnitude = programs.influence, programs.across, programs.magnitude
     mass, rounding, excess, own = 0.0, 0.0, -np.inf, programs.owner.size
-    webs, turned = u.size, across.shape[2] > 0
+    webs, is_complex = u.size, across.shape[2] > 0
     for k in range(webs):
         long = length(u[k])
         mass += long / programs.region.radius[n, k]
         for j in range(own):
-            rounding += (magnitude[n, j, k] if turned else abs(influence[n, j, k])) * long
+            rounding += (magnitude[n, j, k] if is_complex else abs(influence[n, j, k])) * long
     # what scatters is off as well
     rounding *= 1.0 + programs.scatter[0]
     for r in range(programs.floor.shape[1]):
         rows[r] = 0.0
     for j in range(programs.constant.shape[1]):
         x, y, constant = 0.0, 0.0, programs.constant[n, j]
-        if turned:
+        if is_complex:
             for k in range(webs):
                 x += influence[n, j, k] * u[k].real - across[n, j, k] * u[k].imag
                 y += influence[n, j, k] * u[k].imag + across[n, j, k] * u[k].real
@@ -54,7 +54,7 @@ def value(u, programs, n):  # type: ignore[no-untyped-def]
         if share > 0.0:
             off = 0.0
             for k in range(webs):
-                off += (magnitude[n, j, k] if turned else abs(influence[n, j, k])) * abs(u[k])
+                off += (magnitude[n, j, k] if is_complex else abs(influence[n, j, k])) * abs(u[k])
             long += share * off
         if j < own:
             rounding += length(constant)

@@ -35,7 +35,7 @@ def webs_of(influence, y, u):  # type: ignore[no-untyped-def]
 
 
 @inner
-def turned(e, sine, centre, u):  # type: ignore[no-untyped-def]
+def in_frame(e, sine, centre, u):  # type: ignore[no-untyped-def]
     """Unbalances along and across the sectors (e, 3 rows, the first of which is left out) in the frame, (2, K L)."""
     for k in range(sine.size):
         along, across = e[1, k], sine[k] * e[2, k]

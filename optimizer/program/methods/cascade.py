@@ -25,7 +25,7 @@ from optimizer.program.methods.feasibility_phase import (
     smallest_excess,
 )
 from optimizer.program.methods.polish import lightened, polished
-from optimizer.program.methods.rounding import settled
+from optimizer.program.methods.rounding import snap_to_limits
 from optimizer.program.methods.single import StagePair, Target, enough, interior_point
 from optimizer.program.points import points_at
 from optimizer.program.reference.solver import least_mass, smallest_objective
@@ -59,10 +59,10 @@ def cascade(statement: Statement, target: Target, quick: StagePair) -> ConeSolut
         solution = replace(
             solution, mass_multipliers=nothing_proven(statement), mass_target=solution.objective + target.share
         )
-    return _settled(statement, target, solution)
+    return _snap(statement, target, solution)
 
 
-def _settled(statement: Statement, target: Target, solution: ConeSolution) -> ConeSolution:
+def _snap(statement: Statement, target: Target, solution: ConeSolution) -> ConeSolution:
     """The same without dust, and at the limits that it touches."""
     limit = solution.objective
     if solution.below_ceilings:
@@ -73,8 +73,8 @@ def _settled(statement: Statement, target: Target, solution: ConeSolution) -> Co
         limit = min(nearest, max(solution.mass_target, limit))
     bound = np.array([solution.mass_lower_bound]) if target.least_mass else None
     alone = statement.alone()
-    points = settled(alone, points_at(alone, solution.unbalance[None]), np.array([limit]), bound)
-    return solution.moved_to(statement, points.unbalance[0])
+    points = snap_to_limits(alone, points_at(alone, solution.unbalance[None]), np.array([limit]), bound)
+    return solution.with_point(statement, points.unbalance[0])
 
 
 def _under_ceilings(statement: Statement, target: Target, quick: StagePair) -> ConeSolution:
@@ -137,7 +137,7 @@ def _single_term(statement: Statement, solution: ConeSolution) -> ConeSolution:
     constant, influence = statement.norms.constant[0], statement.norms.influence[0]
     does = influence != 0
     alone = statement.limits.into(np.diag(np.where(does, -constant / np.where(does, influence, 1.0), 0.0)))
-    best = solution.moved_to(statement, alone[np.argmin(statement.objective(alone))])
+    best = solution.with_point(statement, alone[np.argmin(statement.objective(alone))])
     solution = best if best.below_ceilings and best.objective < solution.objective else solution
     left = constant + influence @ solution.unbalance
     if left == 0:
@@ -155,21 +155,21 @@ def _better_of(first: ConeSolution, second: ConeSolution, share: float) -> ConeS
     first = first.bounded(second.lower_bound, second.multipliers)
     if not second.below_ceilings:
         return first
-    bound, both = first.lower_bound, (first, second)
+    bound, solutions = first.lower_bound, (first, second)
     if not first.below_ceilings:
-        chosen = proof = second
+        better = proof = second
     elif max(first.objective, second.objective) - bound > share:
-        chosen = proof = min(both, key=lambda solution: solution.objective)
+        better = proof = min(solutions, key=lambda solution: solution.objective)
     else:
         pairs = (
             (candidate, of)
-            for candidate in both
-            for of in both
+            for candidate in solutions
+            for of in solutions
             if of is candidate or candidate.objective <= of.mass_target
         )
-        chosen, proof = min(pairs, key=lambda pair: pair[0].mass - pair[1].mass_lower_bound)
+        better, proof = min(pairs, key=lambda pair: pair[0].mass - pair[1].mass_lower_bound)
     return replace(
-        chosen.bounded(bound, first.multipliers),
+        better.bounded(bound, first.multipliers),
         mass_lower_bound=proof.mass_lower_bound,
         mass_multipliers=proof.mass_multipliers,
         mass_target=proof.mass_target,

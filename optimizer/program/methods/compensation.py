@@ -20,11 +20,11 @@ def near_limits(
     dust, touched : shares of the largest mass that is next to nothing, and of a limit that is next to it.
     """
     new = np.empty(u.shape, complex)
-    moved = _rebalance(limits, influence, u, np.array([dust, touched]), np.empty(u.shape), new)
-    return new, moved
+    is_new = _rebalance(limits, influence, u, np.array([dust, touched]), np.empty(u.shape), new)
+    return new, is_new
 
 
-def balanced(limits: Limits, influence: Real | Complex, u: Complex, put: Complex, room: Real) -> Complex:
+def balanced(limits: Limits, influence: Real | Complex, u: Complex, base: Complex, room: Real) -> Complex:
     """What is put (N, K) in place of points, with others that make up for it, within all limits.
 
     Parameters
@@ -32,7 +32,7 @@ def balanced(limits: Limits, influence: Real | Complex, u: Complex, put: Complex
     influence : (N, J, K) on what is to stay as it is.
     room : (N, K) relative to which the change of the others is the least; of alike webs they change alike.
     """
-    new = np.array(put, complex, order="C")
+    new = np.array(base, complex, order="C")
     _rebalance(limits, influence, u, np.array([-1.0, 0.0]), in_order(room), new)
     return new
 
@@ -44,9 +44,9 @@ def _rebalance(
     from optimizer.program.kernel.settling import rebalance
 
     many, terms, webs = influence.shape
-    own, moved = limits.region((many,)), np.empty(many, bool)
-    rebalance(in_order(u), near, *_parts(influence, (many,)), own, room, *settling_work(own, terms, webs), new, moved)
-    return moved
+    own, is_new = limits.region((many,)), np.empty(many, bool)
+    rebalance(in_order(u), near, *_parts(influence, (many,)), own, room, *settling_work(own, terms, webs), new, is_new)
+    return is_new
 
 
 def _parts(influence: Real | Complex, leading: tuple[int, ...]) -> tuple[Real, Real]:

@@ -51,7 +51,7 @@ _SHARES_OF_ANY_MASS = _SHARES._replace(enough=ENOUGH)
 
 
 @record(frozen=True)
-class BothStages(Solutions):
+class StageSolutions(Solutions):
     """Where both stages of N programs ended: of the points that they came upon the lightest that is an optimum."""
 
     smallest: Complex  # (N, K) kg m, the smallest objective found, whatever its mass
@@ -63,18 +63,18 @@ def suits_kernel(statement: Statement) -> bool:
 
     They have one group, real influences, and no webs that are to be alike.
     """
-    real = not statement.norms.turned and not statement.ceilings.norms.turned
+    real = not statement.norms.is_complex and not statement.ceilings.norms.is_complex
     return bool(real and statement.group[-1] == 0 and statement.limits.alike is None)
 
 
-def both_stages(
+def stage_solutions(
     statement: Statement,
     share: Real,
     demand: Real,
     least_mass: bool,
     precision: Precision | None = None,
     at_least: Real | float = 0.0,
-) -> BothStages:
+) -> StageSolutions:
     """Both stages of N statements of one shape, one leading axis (N,).
 
     What is found for one program does not depend on the others.
@@ -94,7 +94,7 @@ def both_stages(
     (discs,) = suits_discs(statement, least_mass).nonzero()
     level = at_least if isinstance(at_least, np.ndarray) else np.full(share.shape, at_least)
     if not discs.size:
-        return _in_any_limits(statement, share, demand, least_mass, level)
+        return _general(statement, share, demand, least_mass, level)
     if discs.size == share.size:
         quick = _as_discs(statement, share, demand, least_mass, level)
         if not all_true(quick.certified):
@@ -103,16 +103,16 @@ def both_stages(
                 left = left[~_out_of_reach(statement.subset(left))]
             if left.size:
                 part = statement.subset(left)
-                quick.put(left, _in_any_limits(part, share[left], demand[left], least_mass, level[left]))
+                quick.put(left, _general(part, share[left], demand[left], least_mass, level[left]))
         return quick
     quick = _as_discs(statement.subset(discs), share[discs], demand[discs], least_mass, level[discs])
-    done = discs[quick.certified]
-    left = np.setdiff1d(np.arange(share.size), done)
-    rest = _in_any_limits(statement.subset(left), share[left], demand[left], least_mass, level[left])
-    return joined([quick.subset(quick.certified), rest], np.argsort(np.concatenate([done, left])))
+    certain = discs[quick.certified]
+    left = np.setdiff1d(np.arange(share.size), certain)
+    rest = _general(statement.subset(left), share[left], demand[left], least_mass, level[left])
+    return joined([quick.subset(quick.certified), rest], np.argsort(np.concatenate([certain, left])))
 
 
-def _as_discs(statement: Statement, share: Real, demand: Real, least_mass: bool, at_least: Real) -> BothStages:
+def _as_discs(statement: Statement, share: Real, demand: Real, least_mass: bool, at_least: Real) -> StageSolutions:
     """Both stages of programs that all suit the interior point for discs.
 
     Ceilings that are kept without counterweights mostly are kept by the optimum without them too, and that is what is
@@ -145,7 +145,7 @@ def _out_of_reach(statement: Statement) -> np.ndarray:
 def unproven(statement: Statement, share: Real, least_mass: bool) -> tuple[Complex, Complex]:
     """Where both stages of N statements end, a guess: whether it is near an optimum is not looked at.
 
-    Parameters are those of :func:`both_stages`.
+    Parameters are those of :func:`stage_solutions`.
 
     Returns
     -------
@@ -175,7 +175,7 @@ def _guess(statement: Statement, share: Real, least_mass: bool) -> "_Solved":
     return guess
 
 
-def _in_any_limits(statement: Statement, share: Real, demand: Real, least_mass: bool, at_least: Real) -> BothStages:
+def _general(statement: Statement, share: Real, demand: Real, least_mass: bool, at_least: Real) -> StageSolutions:
     """Both stages of programs of any limits; under ceilings what is left is tried once more."""
     solved = _solve(statement, share, least_mass, _DOUBLE, at_least=at_least)
     stages = _judged(statement, share, demand, least_mass, solved)
@@ -199,7 +199,7 @@ def _in_any_limits(statement: Statement, share: Real, demand: Real, least_mass: 
     return stages
 
 
-def _judged(statement: Statement, share: Real, demand: Real, least_mass: bool, solved: "_Solved") -> BothStages:
+def _judged(statement: Statement, share: Real, demand: Real, least_mass: bool, solved: "_Solved") -> StageSolutions:
     """Of the points of both stages the ones to take, with their proofs."""
     began = time.perf_counter()
     judgement = statement.flat.judge(
@@ -214,7 +214,7 @@ def _judged(statement: Statement, share: Real, demand: Real, least_mass: bool, s
     )
     certify_s = time.perf_counter() - began
     figures = judgement.figures
-    return BothStages(
+    return StageSolutions(
         unbalance=judgement.unbalance,
         objective=figures[0],
         lower_bound=judgement.lower_bound,
@@ -243,11 +243,11 @@ class _Solved:
     def subset(self, programs: np.ndarray) -> "_Solved":
         return mapped(self, lambda array: array[programs])
 
-    def put(self, programs: np.ndarray, others: "_Solved") -> None:
+    def put(self, programs: np.ndarray, rivals: "_Solved") -> None:
         """Others in place of some."""
-        self.smallest[programs], self.lightest[programs] = others.smallest, others.lightest
-        self.proof.put(programs, others.proof)
-        self.mass_proof.put(programs, others.mass_proof)
+        self.smallest[programs], self.lightest[programs] = rivals.smallest, rivals.lightest
+        self.proof.put(programs, rivals.proof)
+        self.mass_proof.put(programs, rivals.mass_proof)
 
     def pulled(self, statement: Statement, inside: Complex) -> "_Solved":
         points = pulled(statement, self.smallest, inside), pulled(statement, self.lightest, inside)

@@ -31,7 +31,7 @@ def suits_discs(statement: Statement, least_mass: bool = True) -> np.ndarray:
     norms, ceilings, limits = statement.norms, statement.ceilings.norms, statement.limits
     terms, webs = norms.constant.shape[-1], limits.radius.shape[-1]
     simple = not (norms.scatter or ceilings.scatter or any(norms.scalar) or any(ceilings.scalar))
-    simple = simple and not (norms.turned or ceilings.turned)
+    simple = simple and not (norms.is_complex or ceilings.is_complex)
     vectors = terms + ceilings.constant.shape[-1]
     if not (statement.floor.shape[-1] == 1 and simple and 0 < terms <= vectors <= _VECTORS and webs > 0):
         return np.zeros(statement.floor.shape[:-1], bool)
@@ -93,22 +93,22 @@ def discs_of(
         return [(None, *_form(int(kinds[0]), statement, pair.basis, every, _places(many)))]
     parts = []
     for part in np.unique(kinds).tolist():
-        which = np.flatnonzero(kinds == part)
-        parts.append((which, *_form(part, statement, pair.basis, every, which)))
+        numbers = np.flatnonzero(kinds == part)
+        parts.append((numbers, *_form(part, statement, pair.basis, every, numbers)))
     return parts
 
 
 def _form(
-    kind: int, statement: Statement, basis: np.ndarray, every: tuple[Real, ...], which: np.ndarray
+    kind: int, statement: Statement, basis: np.ndarray, every: tuple[Real, ...], numbers: np.ndarray
 ) -> tuple[bool, "Discs"]:
     """Those programs that are of one form: whether they have a budget, and without what they do not have."""
-    *others, cap, normals = every
+    *arrays, cap, normals = every
     if kind & _BARE:
         basis, cap = basis[: statement.norms.constant.shape[-1]], cap[:, :0]
     if not kind & _SECTORS:
         # without any sector there is no place for edges
         normals = normals[..., :0]
-    return bool(kind & _BUDGET), _disc_starts().Discs(basis, *others, cap, normals, which)
+    return bool(kind & _BUDGET), _disc_starts().Discs(basis, *arrays, cap, normals, numbers)
 
 
 def disc_stages(
@@ -123,16 +123,16 @@ def disc_stages(
     least_mass, share, tolerance, mass_tolerance = stages
     every: tuple[np.ndarray, ...] = ()
     vectors, webs = statement.constant_sizes.shape[-1], reach.shape[1]
-    for which, budgeted, programs in discs_of(statement, reach, unit, margin, without_ceilings):
-        demands = (share, tolerance) if which is None else (share[which], tolerance[which])
+    for numbers, budgeted, programs in discs_of(statement, reach, unit, margin, without_ceilings):
+        demands = (share, tolerance) if numbers is None else (share[numbers], tolerance[numbers])
         v, p, price, mass_unit = _discs().solve(*programs, budgeted, least_mass, *demands, mass_tolerance)
-        some = v.view(complex)[..., 0], p, price, mass_unit
-        if which is None and p.shape[2] == vectors:
-            return some
+        ends = v.view(complex)[..., 0], p, price, mass_unit
+        if numbers is None and p.shape[2] == vectors:
+            return ends
         # nothing is proven by what was left out
         every = every or _no_ends(share.size, webs, vectors)
-        at = slice(None) if which is None else which
-        every[0][:, at], every[1][:, at, : p.shape[2]], every[2][:, at], every[3][at] = some
+        at = slice(None) if numbers is None else numbers
+        every[0][:, at], every[1][:, at, : p.shape[2]], every[2][:, at], every[3][at] = ends
     return every
 
 

@@ -47,22 +47,22 @@ def in_discs(statement: Statement, reach: Real, inside: bool) -> Statement:
     wide = radius - _ROUNDING * far if inside else np.hypot(radius, far) + _ROUNDING * far
     sides = np.concatenate([np.conj(towards) * (constant - middle), np.conj(towards) * (constant + middle)])
     order = np.concatenate([np.flatnonzero(~scalar), *(2 * (np.flatnonzero(scalar),))])
-    which, angles, scenarios = order.tolist(), ceilings.angles_deg, ceilings.scenarios
-    of_others: Complex = norms.constant[~scalar]
+    numbers, angles, scenarios = order.tolist(), ceilings.angles_deg, ceilings.scenarios
+    constants: Complex = norms.constant[~scalar]
     return replace(
         statement,
         ceilings=replace(
             ceilings,
-            names=tuple(ceilings.names[n] for n in which),
+            names=tuple(ceilings.names[n] for n in numbers),
             norms=Norms(
-                np.concatenate([of_others, sides]),
+                np.concatenate([constants, sides]),
                 np.concatenate([_real(norms.influence[~scalar]), along, along]),
                 norms.scatter,
             ),
             cap=np.concatenate([ceilings.cap[~scalar], wide, wide]),
             size=ceilings.size[order],
-            angles_deg=None if angles is None else tuple(angles[n] for n in which),
-            scenarios=None if scenarios is None else tuple(scenarios[n] for n in which),
+            angles_deg=None if angles is None else tuple(angles[n] for n in numbers),
+            scenarios=None if scenarios is None else tuple(scenarios[n] for n in numbers),
         ),
     )
 

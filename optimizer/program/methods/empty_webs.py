@@ -12,7 +12,7 @@ import numpy as np
 
 from optimizer.numerics.arrays import Complex, Real, all_true
 from optimizer.program.methods.compiled import TARGET, ends, suits_kernel
-from optimizer.program.methods.rounding import dust, has_dust, settled
+from optimizer.program.methods.rounding import dust, has_dust, snap_to_limits
 from optimizer.program.points import Points, points_at
 from optimizer.program.solution import CEILING_ROUNDING, Solutions
 from optimizer.program.statement import Statement
@@ -65,8 +65,8 @@ def leave_empty(
     programs = unclean[np.logical_or.reduce(dust(masses), axis=-1)]
     if not programs.size:
         return
-    some, part = statement.subset(programs), share[programs]
-    old = points_at(some, solutions.unbalance[programs])
+    dusty, part = statement.subset(programs), share[programs]
+    old = points_at(dusty, solutions.unbalance[programs])
     close = solutions.lower_bound[programs] + TARGET * part - old.rounding
     bound = solutions.mass_lower_bound[programs]
     optimum = Optimum(
@@ -77,15 +77,15 @@ def leave_empty(
         bound if least_mass else None,
     )
     # most can do without all their dust: so first all at once; of alike webs some may have dust, but not all
-    empty = _dusty(some, old.unbalance)
+    empty = _dusty(dusty, old.unbalance)
     own = np.flatnonzero(np.logical_or.reduce(empty, axis=-1))
     if not own.size:
         return
-    subset = some if own.size == programs.size else some.subset(own)
+    subset = dusty if own.size == programs.size else dusty.subset(own)
     new, success = _without(subset, empty[own], optimum.subset(own), part[own], least_mass)
-    done = success & ~has_dust(subset.limits, new.unbalance)
-    _put(solutions, programs[own[done]], new.subset(done))
-    for k in (~done).nonzero()[0].tolist():
+    final = success & ~has_dust(subset.limits, new.unbalance)
+    _put(solutions, programs[own[final]], new.subset(final))
+    for k in (~final).nonzero()[0].tolist():
         place, n = np.array([k]), own[[k]]
         best = _emptied(
             subset.subset(place), old.subset(n), new.subset(place) if success[k] else None, empty[n],
@@ -163,19 +163,19 @@ def _without(
         return best, success
     nothing = replace(programs.limits, max_mass=np.where(empty, 0.0, programs.limits.max_mass))
     part, left = replace(programs, limits=nothing), _WITH_ROOM * share
-    some, wanted, whole, tried = part, optimum, programs, np.arange(share.size)
+    bare, reference, whole, numbers = part, optimum, programs, np.arange(share.size)
     for _ in range(2):
-        smallest, lightest = (points_at(some, end) for end in ends(some, left, least_mass))
-        room = _WITH_ROOM * (wanted.objective - smallest.objective)
-        point = settled(some, lightest if least_mass else smallest, wanted.objective, wanted.mass_bound)
-        new = points_at(whole, np.where(empty[tried], 0.0, point.unbalance))
-        admitted = wanted.admits(new)
-        best.put(tried, new)
-        success[tried] = admitted
+        smallest, lightest = (points_at(bare, end) for end in ends(bare, left, least_mass))
+        room = _WITH_ROOM * (reference.objective - smallest.objective)
+        point = snap_to_limits(bare, lightest if least_mass else smallest, reference.objective, reference.mass_bound)
+        new = points_at(whole, np.where(empty[numbers], 0.0, point.unbalance))
+        admitted = reference.admits(new)
+        best.put(numbers, new)
+        success[numbers] = admitted
         # the smallest objective without these webs is larger, and what is left for the mass is less
         again = ~admitted & (room > 0.0) & least_mass
-        tried, left = tried[again], room[again]
-        if not tried.size:
+        numbers, left = numbers[again], room[again]
+        if not numbers.size:
             break
-        some, wanted, whole = part.subset(tried), optimum.subset(tried), programs.subset(tried)
+        bare, reference, whole = part.subset(numbers), optimum.subset(numbers), programs.subset(numbers)
     return best, success

@@ -12,7 +12,7 @@ from optimizer.program.certificate import (
     objective_lower_bound,
 )
 from optimizer.program.kernel.finer_numbers import EXTENDED
-from optimizer.program.methods.compiled import BothStages, both_stages
+from optimizer.program.methods.compiled import StageSolutions, stage_solutions
 from optimizer.program.methods.single import Target, interior_point
 from optimizer.program.reference.solver import smallest_objective
 from optimizer.program.solution import CEILING_ROUNDING, ConeSolution
@@ -34,15 +34,15 @@ def smallest_excess(statement: Statement) -> ConeSolution:
     if not _tells(solution) and statement.limits.radius.size <= EXTENDED.most_webs:
         # sharper than the reference solver, and less work than its tries
         finer = interior_point(program, target, EXTENDED).smallest
-        better, other = (finer, solution) if finer.objective < solution.objective else (solution, finer)
-        solution = better.bounded(other.lower_bound, other.multipliers)
+        better, worse = (finer, solution) if finer.objective < solution.objective else (solution, finer)
+        solution = better.bounded(worse.lower_bound, worse.multipliers)
     return solution if _tells(solution) else smallest_objective(program, _PRINTED, solution, _tells)
 
 
-def smallest_excesses(statement: Statement) -> BothStages:
+def smallest_excesses(statement: Statement) -> StageSolutions:
     """The same of many programs at once, as far as the compiled interior point goes."""
     program, tolerance = statement.excess(), np.full(statement.floor.shape[:-1], CEILING_TOLERANCE)
-    return both_stages(program, tolerance, tolerance, False)
+    return stage_solutions(program, tolerance, tolerance, False)
 
 
 def _tells(excess: ConeSolution) -> bool:
@@ -51,7 +51,7 @@ def _tells(excess: ConeSolution) -> bool:
 
 def at_rest(statement: Statement, target: Target, solution: ConeSolution) -> ConeSolution | None:
     """No counterweights, where they are an optimum but for the tolerance of the ceilings: nothing is lighter."""
-    rest = solution.moved_to(statement, np.zeros_like(solution.unbalance))
+    rest = solution.with_point(statement, np.zeros_like(solution.unbalance))
     if not rest.keeps_ceilings or rest.below_ceilings:
         return None
     rest = replace(rest, mass_lower_bound=0.0, mass_multipliers=nothing_proven(statement))
@@ -67,7 +67,7 @@ def raised(statement: Statement) -> Statement:
 
 def proven_again(statement: Statement, solution: ConeSolution) -> ConeSolution:
     """The same point with its bounds, both for the ceilings that were asked for."""
-    solution = solution.moved_to(statement, solution.unbalance)
+    solution = solution.with_point(statement, solution.unbalance)
     solution = replace(solution, lower_bound=float(objective_lower_bound(statement, solution.multipliers)))
     if solution.mass_multipliers is not None:
         target = np.asarray(solution.mass_target)

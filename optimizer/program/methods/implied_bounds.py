@@ -58,8 +58,8 @@ def within_reach(statement: Statement) -> Statement:
     reached = far & np.all(statement.ceilings.excess(nothing) <= 0, axis=-1)
     if statement.limits.alike is None and np.any(reached):
         # all those together that nothing need be found out about
-        some = statement.subset(reached)
-        most[reached] = _finite(some, level_above(some, nothing))
+        programs = statement.subset(reached)
+        most[reached] = _finite(programs, level_above(programs, nothing))
         far = far & ~reached
     for place in np.argwhere(far).tolist():
         most[tuple(place)] = _within_reach(statement.subset(tuple(place))).limits.max_mass
@@ -118,13 +118,13 @@ def _finite(statement: Statement, level: Real) -> Real:
         for webs, programs in _alike(far):
             if not np.any(webs):
                 continue
-            some = statement.subset(programs)
-            mass = np.minimum(_masses(some, webs, level[programs]), some.limits.max_total_mass[:, None])
-            near = webs & (some.limits.max_mass < mass)
-            done = ~np.any(near, axis=-1)
-            max_mass[programs[done]] = np.where(webs, mass, some.limits.max_mass)[done]
+            part = statement.subset(programs)
+            mass = np.minimum(_masses(part, webs, level[programs]), part.limits.max_total_mass[:, None])
+            near = webs & (part.limits.max_mass < mass)
+            final = ~np.any(near, axis=-1)
+            max_mass[programs[final]] = np.where(webs, mass, part.limits.max_mass)[final]
             # webs whose limits are nearer than what is proven are as they are; of the others it is found out anew
-            far[programs] &= ~near & ~done[:, None]
+            far[programs] &= ~near & ~final[:, None]
     return max_mass
 
 
@@ -133,9 +133,9 @@ def _alike(patterns: np.ndarray) -> Iterator[tuple[np.ndarray, np.ndarray]]:
     if (patterns == patterns[:1]).all():
         yield patterns[0], np.arange(len(patterns))
         return
-    different, which = np.unique(patterns, axis=0, return_inverse=True)
+    different, inverse = np.unique(patterns, axis=0, return_inverse=True)
     for k, pattern in enumerate(different):
-        yield pattern, np.flatnonzero(which.reshape(-1) == k)
+        yield pattern, np.flatnonzero(inverse.reshape(-1) == k)
 
 
 def _masses(statement: Statement, far: np.ndarray, level: Real) -> Real:
@@ -144,16 +144,16 @@ def _masses(statement: Statement, far: np.ndarray, level: Real) -> Real:
     if statement.norms.scatter or statement.ceilings.norms.scatter:
         masses[:, far] = _scattered(statement, far, level)[:, None]
         return masses
-    for some in responses(statement, far, level):
-        limits = statement.subset(some.programs).limits.only(far)
-        influence, most, scalar = some.influence * limits.radius[:, None, :], some.most, some.scalar
+    for group in responses(statement, far, level):
+        limits = statement.subset(group.programs).limits.only(far)
+        influence, most, scalar = group.influence * limits.radius[:, None, :], group.most, group.scalar
         together = carrying_mass(influence, limits, most, scalar)
         by_inverse = _masses_by_inverse(influence[:, ~scalar], most[:, ~scalar])
         bound = _MARGIN * np.minimum(together[:, None], by_inverse)
         bound = np.where(np.isfinite(bound), bound, LARGEST)
         # what changes nothing is of no use
         bound[~np.any(most, axis=-1)] = 0.0
-        masses[np.ix_(some.programs, far)] = bound
+        masses[np.ix_(group.programs, far)] = bound
     return masses
 
 
@@ -184,8 +184,8 @@ def _scattered(statement: Statement, far: np.ndarray, level: Real) -> Real:
     """
     norms, ceilings = statement.norms, statement.ceilings
     highest = statement.largest(statement.floor)
-    others = np.add.reduce(highest, axis=-1)[..., None] - highest
-    left = level[:, None] - (statement.floor + others[:, statement.group])
+    rest = np.add.reduce(highest, axis=-1)[..., None] - highest
+    left = level[:, None] - (statement.floor + rest[:, statement.group])
     growth = norms.scatter * (statement.membership @ np.abs(norms.influence))[..., far]
     growth = np.concatenate([growth, ceilings.norms.scatter * np.abs(ceilings.norms.influence)[..., far]], axis=-2)
     left = np.maximum(np.concatenate([left, ceilings.cap + CEILING_TOLERANCE * ceilings.size], axis=-1), 0.0)
@@ -209,8 +209,8 @@ def responses(statement: Statement, far: np.ndarray, level: Real) -> Iterator[Re
     """What the far webs (K,) of N programs can change; level (N,)."""
     norms, ceilings, highest = statement.norms, statement.ceilings, statement.largest(statement.floor)
     # a term is no larger than what the objective leaves it, a limited response no larger than its cap
-    others = np.add.reduce(highest, axis=-1)[..., None] - highest
-    floor = (statement.floor + others[:, statement.group])[:, statement.row]
+    rest = np.add.reduce(highest, axis=-1)[..., None] - highest
+    floor = (statement.floor + rest[:, statement.group])[:, statement.row]
     within = np.concatenate([level[:, None] - floor, ceilings.cap + CEILING_TOLERANCE * ceilings.size], axis=-1)
     constant, influence = statement.every_constant, statement.every_influence
     near = np.where(far, 0.0, statement.limits.reach)
@@ -220,24 +220,24 @@ def responses(statement: Statement, far: np.ndarray, level: Real) -> Iterator[Re
     rows = influence[..., far]
     largest = np.take_along_axis(rows, np.argmax(np.abs(rows), axis=-1)[..., None], axis=-1)[..., 0]
     size = np.abs(largest)
-    some = size > 0.0
+    is_nonzero = size > 0.0
     # a scalar in another direction is another one
-    unit = np.where(some, np.where(scalar, size, largest), 1.0)
-    rows, allowed = rows / unit[..., None], allowed / np.where(some, size, 1.0)
-    for owner, programs in _alike(_owners(rows, some, scalar)):
+    unit = np.where(is_nonzero, np.where(scalar, size, largest), 1.0)
+    rows, allowed = rows / unit[..., None], allowed / np.where(is_nonzero, size, 1.0)
+    for owner, programs in _alike(_owners(rows, is_nonzero, scalar)):
         first = np.flatnonzero(owner == np.arange(owner.size))
         most = [np.minimum.reduce(allowed[programs][:, owner == n], axis=-1) for n in first.tolist()]
         of_all = np.stack(most, axis=-1) if most else np.zeros((programs.size, 0))
         yield Responses(programs, rows[np.ix_(programs, first)], of_all * _MARGIN, scalar[first])
 
 
-def _owners(rows: Real | Complex, some: np.ndarray, scalar: np.ndarray) -> np.ndarray:
+def _owners(rows: Real | Complex, is_nonzero: np.ndarray, scalar: np.ndarray) -> np.ndarray:
     """Numbers (N, R) of the first rows (N, R, far) that each is alike; -1 of a row that nothing changes."""
-    owner = np.where(some, np.arange(scalar.size), -1)
+    owner = np.where(is_nonzero, np.arange(scalar.size), -1)
     for r in range(1, scalar.size):
         # the first of those that stand for themselves
         for n in np.flatnonzero((owner[:, :r] == np.arange(r)).any(axis=0) & (scalar[:r] == scalar[r]))[::-1].tolist():
-            same = some[:, r] & (owner[:, n] == n) & np.all(np.abs(rows[:, r] - rows[:, n]) <= _SAME, axis=-1)
+            same = is_nonzero[:, r] & (owner[:, n] == n) & np.all(np.abs(rows[:, r] - rows[:, n]) <= _SAME, axis=-1)
             owner[same, r] = n
     return owner
 
@@ -326,8 +326,8 @@ def _in_sectors(influence: Real, limits: Limits, most: Real, scalar: np.ndarray)
     outside = rays @ result.x[:d] > 0.5
     inside = rays[~outside]
     # the shortest that does the same
-    both = np.hstack([rays, -rays])
-    result = linprog(np.ones(2 * d), A_ub=-both, b_ub=np.where(outside, -1.0, 0.0))
+    directions = np.hstack([rays, -rays])
+    result = linprog(np.ones(2 * d), A_ub=-directions, b_ub=np.where(outside, -1.0, 0.0))
     if result.x is None:
         return np.inf
     support = result.x[:d] - result.x[d:]
@@ -357,13 +357,13 @@ def _price(rays: Real) -> float:
     price, rest = 0.0, 0.0
     for direction in basis:
         costs, errors = [], []
-        for wanted in (direction, -direction):
-            result = linprog(np.ones(len(rays)), A_eq=rays.T, b_eq=wanted)
+        for target in (direction, -direction):
+            result = linprog(np.ones(len(rays)), A_eq=rays.T, b_eq=target)
             if result.x is None:
                 return np.inf
             share = np.maximum(result.x, 0.0)
             costs.append(float(np.sum(share)))
-            errors.append(float(np.linalg.norm(wanted - share @ rays)))
+            errors.append(float(np.linalg.norm(target - share @ rays)))
         price, rest = price + max(costs), rest + max(errors)
     # what a linear program leaves is carried in the same way
     return price / (1.0 - rest) if rest < 0.5 else np.inf

@@ -11,7 +11,7 @@ import numpy as np
 
 from optimizer.numerics.arrays import Real
 from optimizer.program.certificate import Multipliers
-from optimizer.program.methods.compiled import BothStages, both_stages
+from optimizer.program.methods.compiled import StageSolutions, stage_solutions
 from optimizer.program.norms import Norms
 from optimizer.program.points import points_at
 from optimizer.program.statement import Names, Statement
@@ -21,13 +21,13 @@ _FAR = 0.5
 
 
 def settle_without_slack_rows(
-    statement: Statement, share: Real, demand: Real, least_mass: bool, stages: BothStages
+    statement: Statement, share: Real, demand: Real, least_mass: bool, stages: StageSolutions
 ) -> None:
     """Certify in place what both stages left open of N programs of one group, as far as fewer rows do.
 
     Parameters
     ----------
-    share, demand : (N,) as of :func:`optimizer.program.methods.compiled.both_stages`.
+    share, demand : (N,) as of :func:`optimizer.program.methods.compiled.stage_solutions`.
     """
     if statement.floor.shape[-1] < 2:
         return
@@ -43,7 +43,7 @@ def settle_without_slack_rows(
         if not np.any(pattern):
             continue
         whole, terms = statement.subset(programs), ~pattern[statement.row]
-        part = both_stages(_of_rows(whole, ~pattern, terms), share[programs], demand[programs], least_mass)
+        part = stage_solutions(_of_rows(whole, ~pattern, terms), share[programs], demand[programs], least_mass)
         objective = points_at(whole, part.unbalance).objective
         # no row that was left out has become the largest
         success = part.certified & (objective <= part.objective)
@@ -76,8 +76,8 @@ def _of_rows(statement: Statement, rows: np.ndarray, terms: np.ndarray) -> State
     )
 
 
-def _over_all(statement: Statement, rows: np.ndarray, terms: np.ndarray, some: Multipliers) -> Multipliers:
+def _over_all(statement: Statement, rows: np.ndarray, terms: np.ndarray, part: Multipliers) -> Multipliers:
     """Multipliers of all rows and terms, 0 of those that were left out."""
     term, row = np.zeros_like(statement.norms.constant), np.zeros_like(statement.floor)
-    term[..., terms], row[..., rows] = some.term, some.row
-    return replace(some, term=term, row=row)
+    term[..., terms], row[..., rows] = part.term, part.row
+    return replace(part, term=term, row=row)

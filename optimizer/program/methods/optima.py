@@ -14,7 +14,7 @@ from optimizer.numerics.records import record
 from optimizer.program.certificate import Multipliers, mass_bound_up_to, nothing_proven
 from optimizer.program.equal_unknowns import apart, united
 from optimizer.program.methods.cascade import cascade
-from optimizer.program.methods.compiled import BothStages, both_stages, suits_kernel
+from optimizer.program.methods.compiled import StageSolutions, stage_solutions, suits_kernel
 from optimizer.program.methods.empty_webs import leave_empty
 from optimizer.program.methods.feasibility_phase import smallest_excesses
 from optimizer.program.methods.inactive_rows import settle_without_slack_rows
@@ -94,10 +94,10 @@ def optima(statement: Statement, relative_gap: float, least_mass: bool) -> Optim
         return _optima(statement, relative_gap, least_mass)
     carries = statement.limits.reach > 0
     # webs that cannot carry anything are left out of their programs
-    patterns, which = np.unique(carries, axis=0, return_inverse=True)
+    patterns, inverse = np.unique(carries, axis=0, return_inverse=True)
     parts, places = [], []
     for k, webs in enumerate(patterns):
-        programs = np.flatnonzero(which.reshape(-1) == k)
+        programs = np.flatnonzero(inverse.reshape(-1) == k)
         part = _optima(statement.subset(programs).only(webs), relative_gap, least_mass)
         everywhere = np.zeros((programs.size, webs.size), complex)
         everywhere[:, webs] = part.unbalance
@@ -110,7 +110,7 @@ def _optima(statement: Statement, relative_gap: float, least_mass: bool) -> Opti
     """Of programs whose webs can all carry something."""
     size = yardstick(statement)
     share, demand = min(OPTIMUM_SHARE, relative_gap) * size, relative_gap * size
-    stages = both_stages(statement, share, demand, least_mass) if suits_kernel(statement) else None
+    stages = stage_solutions(statement, share, demand, least_mass) if suits_kernel(statement) else None
     if stages is not None:
         settle_without_slack_rows(statement, share, demand, least_mass, stages)
     answer = _nothing(statement) if stages is None else _compiled(statement, stages)
@@ -127,7 +127,7 @@ def _optima(statement: Statement, relative_gap: float, least_mass: bool) -> Opti
     return answer
 
 
-def _uncertified(stages: BothStages) -> np.ndarray:
+def _uncertified(stages: StageSolutions) -> np.ndarray:
     """Programs that both stages left open; mostly none."""
     certified = stages.certified
     return _NO_PROGRAM if all_true(certified) else np.flatnonzero(~certified)
@@ -138,13 +138,13 @@ def _without_unreachable(statement: Statement, answer: Optima, programs: np.ndar
 
     As :func:`optimizer.program.methods.cascade.cascade` answers one of them.
     """
-    some = statement.subset(programs)
-    nearest = smallest_excesses(some)
+    part = statement.subset(programs)
+    nearest = smallest_excesses(part)
     over = nearest.lower_bound > CEILING_ROUNDING
-    proven, at, points = nearest.subset(over), programs[over], points_at(some, nearest.smallest).subset(over)
+    proven, at, points = nearest.subset(over), programs[over], points_at(part, nearest.smallest).subset(over)
     answer.unbalance[at], answer.objective[at], answer.mass[at] = points.unbalance, points.objective, points.mass
     answer.excess[at], answer.lower_bound[at], answer.mass_lower_bound[at] = points.excess, -np.inf, 0.0
-    answer.multipliers.put(at, nothing_proven(some.subset(over)))
+    answer.multipliers.put(at, nothing_proven(part.subset(over)))
     answer.mass_target[at], answer.certify_s[at] = np.inf, proven.certify_s
     answer.unreachable[at], answer.method[at], answer.clean[at] = True, CONE_PROGRAM, False
     answer.conflict.put(at, proven.multipliers)

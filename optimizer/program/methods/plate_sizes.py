@@ -38,27 +38,27 @@ def equal_sizes(whole: Statement, plates: Plates, cut: CutWeights) -> Iterator[C
     size, limits = np.abs(cut.unbalance), whole.limits
     # near a right angle a plate is all but full long before it is open: that counts as room where no other does
     for near, touched in product(_NEARNESS, _TOUCHED):
-        held = at_limits(whole, cut, touched)
+        is_fixed = at_limits(whole, cut, touched)
         near_full = np.where(cut.angle >= plates.most - near, plates.most, cut.angle)
         order = np.lexsort((near_full, plates.kinds))
         apart = (np.diff(near_full[order]) > near) | (np.diff(plates.kinds[order]) != 0)
         clusters = np.split(order, np.flatnonzero(apart) + 1)
-        room = np.where(held, 0.0, size)
-        for some in clusters:
-            room[plates.webs[some]] *= some.size == 1
+        room = np.where(is_fixed, 0.0, size)
+        for cluster in clusters:
+            room[plates.webs[cluster]] *= cluster.size == 1
         for common, opened in ((np.max, near_full), (np.mean, near_full), (np.mean, cut.angle)):
             angle = opened.copy()
-            for some in clusters:
-                angle[some] = common(opened[some])
+            for cluster in clusters:
+                angle[cluster] = common(opened[cluster])
             angle = np.where(cut.angle > 0, angle, 0.0)
             if not np.any(angle != cut.angle):
                 continue
-            put = cut.unbalance.copy()
-            put[plates.webs] *= plates.unbalance(angle) / np.where(size[plates.webs] > 0, size[plates.webs], 1.0)
-            new = balanced(limits, whole.every_influence, cut.unbalance[None], put[None], room[None])[0]
-            new = np.where(room > 0, new, put)
-            moved = np.where(room[plates.webs] > 0, plates.opened(np.abs(new[plates.webs])), angle)
-            for u, half in ((new, moved), (put, angle)):
+            base = cut.unbalance.copy()
+            base[plates.webs] *= plates.unbalance(angle) / np.where(size[plates.webs] > 0, size[plates.webs], 1.0)
+            new = balanced(limits, whole.every_influence, cut.unbalance[None], base[None], room[None])[0]
+            new = np.where(room > 0, new, base)
+            openings = np.where(room[plates.webs] > 0, plates.opened(np.abs(new[plates.webs])), angle)
+            for u, half in ((new, openings), (base, angle)):
                 yield CutWeights(u, half, float(total_mass(whole, plates, u, half)))
     yield cut
 

@@ -31,13 +31,13 @@ def polished(statement: Statement, target: Target, stages: StagePair, inside: Co
         smallest, lightest = smallest.bounded(bound, multipliers), lightest.bounded(bound, multipliers)
     if target.least_mass and smallest.below_ceilings:
         # a point that exceeds the ceilings by rounding is below what is proven of those that keep them
-        counted = np.asarray(max(smallest.objective, smallest.lower_bound) + target.share)
+        level = np.asarray(max(smallest.objective, smallest.lower_bound) + target.share)
         candidates = list(supporting_multipliers(statement, lightest.unbalance))
         if lightest.mass_multipliers is not None:
             candidates += mass_multipliers(statement, lightest.unbalance, lightest.mass_multipliers)
         for multipliers in candidates:
-            bound = float(mass_lower_bound(statement, multipliers, counted))
-            lightest = lightest.weighed(bound, multipliers, float(counted))
+            bound = float(mass_lower_bound(statement, multipliers, level))
+            lightest = lightest.weighed(bound, multipliers, float(level))
     enough = (ENOUGH_FOR_MASS if target.least_mass else ENOUGH) * target.share
     certified = smallest.gap <= enough and lightest.below_ceilings and lightest.gap <= target.share
     certified &= not target.least_mass or light(lightest)
@@ -64,7 +64,7 @@ def lightened(statement: Statement, target: Target, stages: StagePair, precision
         near = replace(limits, max_mass=np.minimum(limits.max_mass, _ROOM_FOR_MASS * before.mass))
         again = interior_point(replace(statement, limits=near), target, precision).lightest
         if again.below_ceilings and again.objective <= before.lower_bound + target.share and again.mass < before.mass:
-            lightest = before.moved_to(statement, again.unbalance)
+            lightest = before.with_point(statement, again.unbalance)
         else:
             lightest = before
         lightest = replace(lightest, mass_multipliers=again.mass_multipliers, mass_lower_bound=0.0)
@@ -80,4 +80,4 @@ def _pulled(statement: Statement, solution: ConeSolution, inside: Complex | None
     """A point above a ceiling, moved towards one below it just so far; excesses are convex."""
     if inside is None or solution.below_ceilings:
         return solution
-    return solution.moved_to(statement, pulled(statement, solution.unbalance, inside))
+    return solution.with_point(statement, pulled(statement, solution.unbalance, inside))

@@ -27,7 +27,7 @@ RUNGS = np.array(
 HEAVIER = 1e-5
 
 
-def settled(statement: Statement, points: Points, target: Real, mass_bound: Real | None) -> Points:
+def snap_to_limits(statement: Statement, points: Points, target: Real, mass_bound: Real | None) -> Points:
     """The same without dust, and at the limits that they touch, where they are no worse for it.
 
     Parameters

@@ -70,8 +70,8 @@ def _subset_mass(influence: Real, limits: Limits, webs: list[int], most: Real, s
         return float(np.min(most[does > 0] / does[does > 0]))
     if not np.any(most):
         return 0.0
-    some = limits.only(np.isin(np.arange(limits.radius.size), webs)).mapped(lambda array: array[None])
-    return float(carrying_mass(influence[None, :, webs], some, most[None], scalar)[0])
+    part = limits.only(np.isin(np.arange(limits.radius.size), webs)).mapped(lambda array: array[None])
+    return float(carrying_mass(influence[None, :, webs], part, most[None], scalar)[0])
 
 
 def _subsets(influence: Real, limits: Limits, scalar: np.ndarray) -> Iterator[tuple[int, ...]]:

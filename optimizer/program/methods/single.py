@@ -7,7 +7,7 @@ import numpy as np
 
 from optimizer.numerics.arrays import Complex
 from optimizer.program.kernel.finer_numbers import Precision
-from optimizer.program.methods.compiled import MASS_ENOUGH, BothStages, both_stages, suits_kernel
+from optimizer.program.methods.compiled import MASS_ENOUGH, StageSolutions, stage_solutions, suits_kernel
 from optimizer.program.multipliers import resting_multipliers
 from optimizer.program.reference.solver import proven
 from optimizer.program.solution import INTERIOR_POINT, ConeSolution, evaluated
@@ -46,11 +46,11 @@ def interior_point(
         return StagePair(resting, resting, False)
     share, demand = np.array([target.share]), np.array([target.demand])
     at_least = 0.0 if inside is None else float(statement.objective(inside))
-    stages = both_stages(statement.alone(), share, demand, target.least_mass, precision, at_least)
+    stages = stage_solutions(statement.alone(), share, demand, target.least_mass, precision, at_least)
     return only(statement, target, stages, precision.name if precision else INTERIOR_POINT)
 
 
-def only(statement: Statement, target: Target, stages: BothStages, method: str = INTERIOR_POINT) -> StagePair:
+def only(statement: Statement, target: Target, stages: StageSolutions, method: str = INTERIOR_POINT) -> StagePair:
     """The only answer of a leading axis (1,)."""
     nothing = ConeSolution(
         stages.smallest[0],
@@ -63,7 +63,7 @@ def only(statement: Statement, target: Target, stages: BothStages, method: str =
         method,
         float(stages.certify_s[0]),
     )
-    smallest = nothing.moved_to(statement, stages.smallest[0])
+    smallest = nothing.with_point(statement, stages.smallest[0])
     lightest = smallest
     if target.least_mass:
         lightest = replace(
@@ -73,7 +73,7 @@ def only(statement: Statement, target: Target, stages: BothStages, method: str =
             mass_multipliers=stages.mass_multipliers.subset(0),
             mass_target=float(stages.mass_target[0]),
         )
-    return StagePair(smallest, lightest.moved_to(statement, stages.unbalance[0]), bool(stages.certified[0]))
+    return StagePair(smallest, lightest.with_point(statement, stages.unbalance[0]), bool(stages.certified[0]))
 
 
 def enough(solution: ConeSolution, target: Target) -> bool:

@@ -31,7 +31,7 @@ def symmetric(statement: Statement, u: Complex, kinds: np.ndarray | None = None)
     if alike is not None:
         of_units = None if kinds is None else kinds[alike.first]
         return apart(symmetric(united(statement, alike), alike.means(u) * alike.count, of_units), alike)
-    if u.shape[-1] < 2 or not u.size or statement.norms.turned or statement.ceilings.norms.turned:
+    if u.shape[-1] < 2 or not u.size or statement.norms.is_complex or statement.ceilings.norms.is_complex:
         return u
     programs, region = statement.flat.programs, statement.flat.programs.region
     _, terms, webs = programs.influence.shape

@@ -276,14 +276,14 @@ def solved(
     most_of_sums = levels + groups
     program = Assembly(most_of_sums + (len(sums) > 1))
     # all rows of one term: |a_j| <= level_g - floor_r
-    single, both = np.flatnonzero(alone), np.concatenate([alone, alone])
+    single, twice = np.flatnonzero(alone), np.concatenate([alone, alone])
     above = np.zeros((single.size, groups))
     above[np.arange(single.size), group[row[single]]] = 1.0
     direct = program.cones(
         -data.floor[row[single]],
         (dense(levels, above), dense(2 * webs, -data.spread[single])),
         data.constant[:, alone].ravel(),
-        (dense(0, data.matrix[both]),),
+        (dense(0, data.matrix[twice]),),
     )
     # the others: |a_j| <= t_j, level_g >= floor_r + sum t_j
     summed = np.setdiff1d(np.arange(group.size), row[single])
@@ -300,7 +300,7 @@ def solved(
         np.zeros(together.size),
         (diagonal(norms, np.ones(together.size)),),
         data.constant[:, ~alone].ravel(),
-        (dense(0, data.matrix[~both]),),
+        (dense(0, data.matrix[~twice]),),
     )
     off = (dense(2 * webs, -data.ceiling_spread),)
     caps = program.cones(data.ceiling_cap, off, data.ceiling_constant.ravel(), (dense(0, data.ceiling_matrix),))

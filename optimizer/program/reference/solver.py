@@ -73,8 +73,8 @@ def smallest_objective(
     if _better_objective(best, cancelled):
         best = cancelled.bounded(best.lower_bound, best.multipliers)
     if start is not None:
-        chosen, other = (start, best) if _better_objective(best, start) else (best, start)
-        best = chosen.bounded(other.lower_bound, other.multipliers)
+        better, worse = (start, best) if _better_objective(best, start) else (best, start)
+        best = better.bounded(worse.lower_bound, worse.multipliers)
     if statement.limits.radius.size == 0 or (best.below_ceilings and best.gap <= enough):
         return best
     natural, largest = float(natural_reach(statement)), float(np.max(statement.limits.reach))
@@ -105,12 +105,12 @@ def least_mass(
     """
     rounding = float(statement.rounding(first.unbalance))
     target = max(first.objective, first.lower_bound + (1.0 - _TARGET_MARGIN) * share - rounding)
-    nothing = first.moved_to(statement, np.zeros_like(first.unbalance))
+    nothing = first.with_point(statement, np.zeros_like(first.unbalance))
     if nothing.objective <= target and nothing.below_ceilings:
         return nothing
     # the smallest objective lies between first.lower_bound and first.objective: a bound for all
     # that are within the share of it must allow for the larger; rounding of ceilings may turn them round
-    counted = max(first.objective, first.lower_bound) + share
+    level = max(first.objective, first.lower_bound) + share
     best, natural = first, float(natural_reach(statement))
     needed, largest = float(np.max(np.abs(first.unbalance))), float(np.max(statement.limits.reach))
 
@@ -119,9 +119,9 @@ def least_mass(
 
     if start is not None:
         base = first.weighed(start.mass_lower_bound, start.mass_multipliers, start.mass_target)
-        best = base.moved_to(statement, start.unbalance) if admit(best, start) else base
+        best = base.with_point(statement, start.unbalance) if admit(best, start) else base
     for multiplier in supporting_multipliers(statement, best.unbalance):
-        best = best.weighed(float(mass_lower_bound(statement, multiplier, np.asarray(counted))), multiplier, counted)
+        best = best.weighed(float(mass_lower_bound(statement, multiplier, np.asarray(level))), multiplier, level)
     for attempt in _MASS_ATTEMPTS:
         inner = max(target - attempt.target_margin * share, 0.5 * (target + first.lower_bound))
         clip = min(max(attempt.clip(natural, largest), needed), largest)
@@ -130,8 +130,8 @@ def least_mass(
         if point is not None:
             began = time.perf_counter()
             for multiplier in mass_multipliers(statement, *point):
-                bound = float(mass_lower_bound(statement, multiplier, np.asarray(counted)))
-                best = best.weighed(bound, multiplier, counted)
+                bound = float(mass_lower_bound(statement, multiplier, np.asarray(level)))
+                best = best.weighed(bound, multiplier, level)
             best = replace(best, certify_s=best.certify_s + time.perf_counter() - began)
         proof = best.mass_multipliers
         allowance = 0.0 if proof is None else float(tolerance_allowance(statement, proof))

@@ -10,7 +10,7 @@ from optimizer.numerics.arrays import Complex, Real
 from optimizer.numerics.records import record
 from optimizer.program.certificate import objective_lower_bound
 from optimizer.program.kernel.finer_numbers import PRECISIONS, Precision
-from optimizer.program.methods.compiled import BothStages, both_stages
+from optimizer.program.methods.compiled import StageSolutions, stage_solutions
 from optimizer.program.methods.optima import optima
 from optimizer.program.multipliers import objective_multipliers
 from optimizer.program.reference.assembled import NoPoint
@@ -125,7 +125,7 @@ def _interior_point(relative_gap: float, precision: Precision | None) -> Run:
             return f"too large: {webs} webs, at most {precision.most_webs} are tried"
         alone = task.statement.alone()
         gap = relative_gap * _rest(alone)
-        return _first(both_stages(alone, gap, gap, False, precision))
+        return _first(stage_solutions(alone, gap, gap, False, precision))
 
     return run
 
@@ -138,7 +138,7 @@ def _batch(relative_gap: float) -> Run:
         # put together in the first run; the rounds time what solves it
         batch = batch or _lighter(task.statement, np.linspace(1.0, 0.9, BATCH))
         gap = relative_gap * _rest(batch)
-        return _first(both_stages(batch, gap, gap, False))
+        return _first(stage_solutions(batch, gap, gap, False))
 
     return run
 
@@ -160,7 +160,7 @@ def _lighter(statement: Statement, share: Real) -> Statement:
     )
 
 
-def _first(stages: BothStages) -> MethodResult:
+def _first(stages: StageSolutions) -> MethodResult:
     bound = float(stages.lower_bound[0])
     return MethodResult(stages.unbalance[0], float(stages.objective[0]), lambda: bound)
 

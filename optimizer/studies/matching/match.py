@@ -8,7 +8,7 @@ import numpy as np
 
 from optimizer.analyze import analyze
 from optimizer.errors import refuse
-from optimizer.formulation.balance_shafts import design_space, posed
+from optimizer.formulation.balance_shafts import design_space, in_program
 from optimizer.formulation.counterweights import mass_and_angle, too_heavy, unbalance
 from optimizer.formulation.formulate import responses
 from optimizer.formulation.goals import cone_program
@@ -168,7 +168,7 @@ def _evaluated(request: MatchRequest, machine: ReciprocatingMachine, solution: S
     first = responses(plan, rotating(plan).plus(reciprocating(plan, 1)), goal)
     square, radius = plan.omega**2, web_radii(space.machine)
     program = cone_program(*space, first, square)
-    u = posed(cut, goal, unbalance(mass, angle, radius))
+    u = in_program(cut, goal, unbalance(mass, angle, radius))
     alone = unbalance(*beside(machine, np.zeros(mass.shape), np.zeros(mass.shape)), radius)
     residual = cast(Residual, answer.residual)
     return _Evaluated(
@@ -185,7 +185,7 @@ def _counterweights(request: MatchRequest, solution: Solution | None) -> Iterato
     if solution is None:
         yield from (counterweight.model_dump() for counterweight in request.counterweights)
         return
-    for weight in solution.placement.all_of_them:
+    for weight in solution.placement.every_weight:
         if weight.mass_kg > 0.0 and not weight.fixed:
             yield {"web": weight.web, "mass_kg": weight.mass_kg, "angle_deg": weight.angle_deg}
 

@@ -9,7 +9,7 @@ from itertools import pairwise
 
 import numpy as np
 
-from optimizer.formulation.balance_shafts import design_space, posed
+from optimizer.formulation.balance_shafts import design_space, in_program
 from optimizer.formulation.counterweights import unbalance
 from optimizer.formulation.formulate import responses, weights
 from optimizer.mechanics.inertia import reciprocating, rotating
@@ -129,7 +129,7 @@ def stated(request: MatchRequest, machine: Machine, fitted: Real, angle_deg: Rea
     goal = request.objective
     plan = layout(machine)
     u = unbalance(fitted, angle_deg, web_radii(design_space(machine, goal).machine))
-    u = posed(machine, goal, u)
+    u = in_program(machine, goal, u)
     response_weights, across = weights(machine, goal), goal.direction_weights
     base = responses(plan, rotating(plan).plus(reciprocating(plan, 1)), goal)
     unit = responses(plan, reciprocating(_per_kilogram(plan), 1), goal)

@@ -109,7 +109,7 @@ def _smallest(task: Task, scene: Prepared) -> BestSet:
     best = solve(task, scene, in_full=False)
     if isinstance(best, Infeasible):
         return none_of(task.machine, best.status, best.reason, best.nodes, best.method)
-    proof, weights = best.certificate, best.placement.all_of_them
+    proof, weights = best.certificate, best.placement.every_weight
     return BestSet(
         np.array([weight.mass_kg for weight in weights]),
         np.array([weight.angle_deg for weight in weights]),

@@ -8,7 +8,7 @@ from collections.abc import Iterator, Sequence
 
 import numpy as np
 
-from optimizer.formulation.balance_shafts import chosen
+from optimizer.formulation.balance_shafts import placement_of
 from optimizer.formulation.counterweights import masses_and_angles, unbalance
 from optimizer.mechanics.fixed_weights import fixed_masses
 from optimizer.numerics.arrays import Complex, Real
@@ -107,7 +107,7 @@ class Lines:
             ),
             gap,
         )
-        placement = chosen(task.machine, task.objective, masses, angles, u)
+        placement = placement_of(task.machine, task.objective, masses, angles, u)
         plain = self.scene.beside(placement.on_shafts).first_order(placement.on_crank)
         return TradedPoint(
             status="optimal" if judged.status == "optimal" else "inaccurate",

@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from optimizer.formulation.balance_shafts import chosen, design_space
+from optimizer.formulation.balance_shafts import design_space, placement_of
 from optimizer.formulation.counterweights import masses_and_angles, unbalance
 from optimizer.formulation.goals import Goals
 from optimizer.formulation.simulation import Prepared
@@ -21,7 +21,7 @@ from optimizer.program.solution import ConeSolution
 from optimizer.program.verdict import Claim, mass_resolution, verdict
 from optimizer.solve.answer_fields import touched_ceilings
 from optimizer.solve.prices import touched_by_mass
-from optimizer.solve.proof import implied_max_mass, named, physical
+from optimizer.solve.proof import bound_multipliers, implied_max_mass, physical
 from optimizer.solve.solution import Infeasible, finite_or_null
 from optimizer.solve.solve import solve
 from optimizer.solve.uncertain_program import Robust
@@ -138,7 +138,7 @@ def _front(request: ParetoRequest, machine: Machine, scene: Prepared) -> _TimedF
 
 def _solved(robust: Robust, points: int) -> Front | ConeSolution:
     """The front with all changes of masses that matter at any of its points; there are finitely many."""
-    demand = robust.wanted
+    demand = robust.demand
     while True:
         result = front(trade(robust.goals().program), points, demand.relative_gap, demand.least_mass)
         if isinstance(result, ConeSolution):
@@ -197,7 +197,7 @@ def _point(request: ParetoRequest, robust: Robust, goals: Goals, curve: Front, p
     masses, angles = masses_and_angles(design_space(machine, request.objective).machine, unbalance_there, limits)
     u = unbalance(masses, angles, limits.radius)
     point = point.counting(traded, u)
-    placement = chosen(machine, request.objective, masses, angles, u)
+    placement = placement_of(machine, request.objective, masses, angles, u)
     peaks = traded.peaks(u)
     fixed = float(np.sum(fixed_masses(machine)))
     judged = verdict(
@@ -260,8 +260,8 @@ def _of_point(traded: Trade, point: FrontPoint, omega_squared: float) -> Multipl
     """The proofs of a point: of its corner, and of its mass."""
     minimax, of_mass = traded.minimax, point.mass_proof
     return Multipliers(
-        objective=named(minimax, physical(minimax, point.proof, "parameter", omega_squared)),
-        mass=None if of_mass is None else named(minimax, physical(minimax, of_mass, "mass", omega_squared)),
+        objective=bound_multipliers(minimax, physical(minimax, point.proof, "parameter", omega_squared)),
+        mass=None if of_mass is None else bound_multipliers(minimax, physical(minimax, of_mass, "mass", omega_squared)),
     )
 
 
@@ -269,7 +269,7 @@ def _of_ends(curve: Front, omega_squared: float) -> EndMultipliers:
     """The proofs of both smallest peaks."""
     minimax = curve.trade.minimax
     force, moment = (
-        named(minimax, physical(minimax, proof, "objective", omega_squared)) for proof in curve.ideal_proofs
+        bound_multipliers(minimax, physical(minimax, proof, "objective", omega_squared)) for proof in curve.ideal_proofs
     )
     return EndMultipliers(smallest_force=force, smallest_moment=moment)
 

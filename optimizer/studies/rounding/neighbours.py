@@ -6,7 +6,7 @@ from typing import NamedTuple
 import numpy as np
 
 from optimizer.errors import refuse
-from optimizer.formulation.balance_shafts import as_drawn, web_paths
+from optimizer.formulation.balance_shafts import web_paths, with_shaft_webs
 from optimizer.formulation.groups import alike_webs
 from optimizer.formulation.limits import largest_mass, sectors
 from optimizer.mechanics.crank_of_web import crank_angles
@@ -46,7 +46,7 @@ def sides(machine: Machine, mass_kg: Real, angle_deg: Real, mass_step: float, an
     """
     paths, cranks = web_paths(machine), [*crank_angles(machine)]
     cranks += [0.0] * (len(paths) - len(cranks))
-    machine = as_drawn(machine)
+    machine = with_shaft_webs(machine)
     alike, limit = alike_webs(machine), largest_mass(machine).tolist()
     free, centre, half_angle = sectors(machine)
     leader = list(range(len(machine.webs))) if alike is None else list(alike.leader)

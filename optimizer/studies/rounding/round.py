@@ -6,7 +6,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from optimizer.errors import NotComputable
-from optimizer.formulation.balance_shafts import fitted, posed, web_paths
+from optimizer.formulation.balance_shafts import fitted, in_program, web_paths
 from optimizer.formulation.counterweights import unbalance
 from optimizer.formulation.task import Task
 from optimizer.mechanics.fixed_weights import beside
@@ -98,7 +98,7 @@ class _Judge:
     def values(self, weights: _Set) -> tuple[float, float]:
         """Objective, and the largest excess over a ceiling."""
         radius = stacked([web.radius_m for web in self.machine.every_web])
-        values = self.program.values(posed(self.machine, self.goal, unbalance(*weights, radius)), _CLOSE)
+        values = self.program.values(in_program(self.machine, self.goal, unbalance(*weights, radius)), _CLOSE)
         return float(values.goals[-1]) * self.omega_squared, values.excess
 
     def objective(self, weights: _Set) -> float:

@@ -4,7 +4,7 @@ from typing import Any
 
 import numpy as np
 
-from optimizer.formulation.balance_shafts import design_space, drawn
+from optimizer.formulation.balance_shafts import design_space, in_drawing
 from optimizer.formulation.counterweights import mass_and_angle, unbalance
 from optimizer.formulation.formulate import responses, shape_facts
 from optimizer.formulation.task import Task
@@ -49,7 +49,7 @@ def optimal(request: OptimizeRequest, count: int, multipliers: bool = False) -> 
 def columns_of(request: OptimizeRequest, best: Certified, multipliers: bool) -> tuple[Columns, Complex]:
     """The same of what was certified; the request is of the radii that it has."""
     machine, every = request.machine, request.machine.every_web
-    mass, angle = drawn(machine, request.objective, best.mass_kg, best.angle_deg)
+    mass, angle = in_drawing(machine, request.objective, best.mass_kg, best.angle_deg)
     optimal, none = best.status == "optimal", best.status == "infeasible"
     columns: Columns = {
         **best.certificate,

@@ -5,7 +5,14 @@ import numpy as np
 from optimizer.formulation.balance_shafts import design_space
 from optimizer.program.certificate import Multipliers
 from optimizer.solve.certify import Certified
-from optimizer.solve.proof import Bounded, conflict, implied_max_mass, named, named_conflict, physical_bounds
+from optimizer.solve.proof import (
+    Bounded,
+    bound_multipliers,
+    conflict,
+    conflict_multipliers,
+    implied_max_mass,
+    physical_bounds,
+)
 from schemas.answer.proof import DesignMultipliers
 from schemas.request.requests import OptimizeRequest
 
@@ -28,10 +35,10 @@ def multipliers_as_text(request: OptimizeRequest, best: Certified) -> np.ndarray
         of_mass = least_mass and not unreachable
         against = conflict(program.subset(n), optima.conflict.subset(n), square[n]) if unreachable else None
         texts[n] = DesignMultipliers(
-            objective=None if unreachable else named(program, objective.subset(n)),
-            mass=named(program, mass.subset(n)) if of_mass else None,
+            objective=None if unreachable else bound_multipliers(program, objective.subset(n)),
+            mass=bound_multipliers(program, mass.subset(n)) if of_mass else None,
             mass_objective_limit=limit[n] if of_mass else None,
-            conflict=None if against is None else named_conflict(program, against),
+            conflict=None if against is None else conflict_multipliers(program, against),
             implied_max_mass_kg=implied[n],
         ).model_dump_json()
     return texts

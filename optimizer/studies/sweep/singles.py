@@ -89,7 +89,7 @@ def _row(request: OptimizeRequest, best: Solution | Infeasible, multipliers: boo
     for column in goal_columns(request.objective):
         field, _, goal = column.name.removeprefix("goal_").partition(".")
         row[column.name] = _or_nan(getattr(by_name.get(goal), field, None))
-    fitted = () if placement is None else placement.all_of_them
+    fitted = () if placement is None else placement.every_weight
     masses = {weight.web: (weight.mass_kg, weight.angle_deg) for weight in fitted}
     openings = {weight.web: weight.shape.half_angle_deg for weight in fitted if weight.shape is not None}
     for web in request.machine.every_web:

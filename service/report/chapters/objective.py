@@ -3,7 +3,7 @@
 from collections.abc import Iterable, Iterator
 
 from optimizer.formulation.formulate import objective_ceilings, weights
-from schemas.base.responses import ResponseFields, counted
+from schemas.base.responses import ResponseFields, active_responses
 from schemas.base.titles import field_title
 from schemas.request.objective import Objective, Priority
 from schemas.request.requests import OptimizeRequest
@@ -42,7 +42,7 @@ def _ceilings(goal: Objective, responses: Iterable[ResponseFields]) -> Iterator[
 def objective(request: OptimizeRequest) -> Table:
     """Weights, ceilings and goals, as they hold."""
     goal, wanted = request.objective, weights(request.machine, request.objective)
-    count = counted(goal)
+    count = active_responses(goal)
     *others, last = (response.label for response in count)
     names = ", ".join(f"peak {name}" for name in others)
     combined = {
