@@ -79,7 +79,8 @@ class ParetoRequest(OptimizeRequest):
 
     def rules(self) -> Iterator[Rule]:
         yield from super().rules()
-        yield from self.case_refusals("remove it: a front is of one machine")
+        message = "remove it: a front lists no cheaper choices, name counts or the mass in its place"
+        yield Rule(bool(self.alternatives), ("alternatives",), message)
         yield from self._trade_rules()
         if self.tolerances is not None and self.machine.choice == "semicontinuous":
             yield from self._scatter_rules(self.tolerances)
