@@ -79,8 +79,7 @@ class ParetoRequest(OptimizeRequest):
 
     def rules(self) -> Iterator[Rule]:
         yield from super().rules()
-        message = "remove it: a front lists no cheaper choices, name counts or the mass in its place"
-        yield Rule(bool(self.alternatives), ("alternatives",), message)
+        yield from self.allowance_rules("remove it: counts, or the mass among the responses, trade what choices cost")
         yield from self._trade_rules()
         if self.tolerances is not None and self.machine.choice == "semicontinuous":
             yield from self._scatter_rules(self.tolerances)
