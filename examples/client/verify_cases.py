@@ -25,8 +25,10 @@ CASES: Dict[str, Stated] = {
 }
 #: fields that say what may be off
 OFF = " tolerances mass_relative unbalance_kg_m reciprocating_mass_relative "
+#: fields that state cases
+OF_CASES = "".join(f" {name} {case.fields} " for name, case in CASES.items())
 #: fields of a request that are known here
-FIELDS = f"{OFF}priorities goal allowance " + "".join(f" {name} {case.fields} " for name, case in CASES.items())
+FIELDS = f"{OFF}priorities goal allowance {OF_CASES}"
 #: rows whose masses are off one way or the other, all ways of them
 MOST_ROWS = 8
 #: fields that say where the plane of the moments is
@@ -45,10 +47,11 @@ def without_cases(request: Place) -> Place:
     return Place({**request.value, **dict.fromkeys(CASES), "tolerances": None}, *request.path)
 
 
-def anything_off(request: Place) -> bool:
-    """Whether anything may be off."""
+def uncertain(request: Place) -> bool:
+    """Whether there are several cases, or anything may be off."""
     stated = (request / "tolerances").value
-    return isinstance(stated, dict) and any((request / "tolerances" / name).value for name in stated)
+    off = isinstance(stated, dict) and any((request / "tolerances" / name).value for name in stated)
+    return off or bool(scenarios(request))
 
 
 class Scatter(NamedTuple):

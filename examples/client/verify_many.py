@@ -7,7 +7,7 @@ from functools import partial
 from typing import Any, Dict, Iterator, List, Sequence
 
 from verify_answer import MASS_GAP, before, touched
-from verify_cases import OFF, anything_off, with_value
+from verify_cases import OF_CASES, OFF, uncertain, with_value
 from verify_ceilings import LOADED
 from verify_claims import EVIDENCE, Claim, Claims, covered, near, same
 from verify_cuts import SHAFTS
@@ -46,7 +46,7 @@ OF_STATUS = {"objective", "lower_bound", "yardstick"}
 def front(request: Place, answer: Place) -> Claims:
     """Fronts of force and moment, one for each budget."""
     yield from form(answer, ("pareto",))
-    request.require_coverage(f"{ENTRY_FIELDS}{SHAFTS}{OFF}")
+    request.require_coverage(f"{ENTRY_FIELDS}{SHAFTS}{OFF}{OF_CASES}")
     design, goal = request / "machine", request / "objective"
     plain = _machine(request, answer, design / "max_total_mass_kg")
     yield from before(request, plain, answer)
@@ -64,12 +64,12 @@ def front(request: Place, answer: Place) -> Claims:
             yield "max_total_mass", curve / "max_total_mass_kg", -ONE, ONE
         if (curve / "status").text(*STATUSES) == "infeasible":
             yield "status", curve / "status", ONE if curve / "infeasibility" else -ONE, ONE
-            of_all = list(design / "balance_shafts") or anything_off(request)
+            of_all = list(design / "balance_shafts") or uncertain(request)
             no_weights = unreachable if of_all else infeasible
             yield from no_weights(request, answer, budget, curve / "infeasibility")
             continue
         machine = _machine(request, answer, budget)
-        if anything_off(request):
+        if uncertain(request):
             yield from worst_curve(request, machine, curve)
             yield from _shape(curve)
             continue

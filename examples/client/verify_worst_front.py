@@ -1,4 +1,4 @@
-"""Fronts of force and moment where something may be off: both peaks of a point are those of its worst case."""
+"""Fronts of force and moment of several scenarios, or where something may be off: peaks are those of the worst case."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from verify_machine import NAMES, ON_FRAME, Machine
 from verify_multipliers import Program
 from verify_nominal import fixed_alone
 from verify_numbers import ABOUT_ONE, ONE, SPECK, ZERO, Number, Place, largest, real, total
-from verify_values import Value, off_sizes
+from verify_values import Value, most, off_sizes
 from verify_weights import listed, usual_gap
 
 #: price of the mass where it has none; rows keep their multipliers beside it
@@ -38,22 +38,32 @@ class WorstFront:
         self.request, self.machine = request, machine
         self.both = _program(request, machine, tuple(NAMES))
         self.alone = {name: _program(request, machine, (name,)) for name in NAMES}
-        (self.part,) = self.both.parts.values()
+        self.parts = [*self.both.parts.values()]
 
-    def peaks(self, there: Fitted, off: bool = True) -> Peaks:
-        """Of what is fitted, as they are weighed across the shaft; ``off``: with what is off by a share of itself."""
+    def peaks(self, there: Fitted) -> Peaks:
+        """Of what is fitted, as they are weighed across the shaft, in the worst scenario."""
         values = {}
         for name, program in self.alone.items():
-            (part,) = program.parts.values()
-            sizes = off_sizes(part, there) if off else [ZERO for _ in program.webs]
-            values[name] = part.value(there.first, program.off, sizes) * ABOUT_ONE
+            parts = [(part, part.placed(there).first, off_sizes(part, there)) for part in program.parts.values()]
+            values[name] = largest(*(part.value(first, program.off, sizes) for part, first, sizes in parts)) * ABOUT_ONE
         return values
 
     @property
     def at_rest(self) -> Peaks:
         """Without counterweights."""
-        bare = Fitted(list(self.machine.there), [], ZERO, ZERO)
-        return self.peaks(bare, off=False)
+        values = {}
+        for name, program in self.alone.items():
+            nothing = [ZERO for _ in program.webs]
+            each = (part.value(part.machine.there, program.off, nothing) for part in program.parts.values())
+            values[name] = largest(*each) * ABOUT_ONE
+        return values
+
+    def reachable(self, name: str) -> Optional[Number]:
+        """What counterweights could make a peak in the worst scenario; None where they have no limits."""
+        parts = [*self.alone[name].parts.values()]
+        reached = [part.exact.reachable(Place({})) for part in parts]
+        most = [size for size in reached if size is not None]
+        return largest(*most, *(part.machine.square for part in parts)) if len(most) == len(parts) else None
 
     def proven(
         self, program: Program, proof: Place, implied: Place, values: Peaks, cost: Number = FREE
@@ -113,10 +123,8 @@ def _scale(front: WorstFront, name: str, rest: Number, place: Place) -> Tuple[st
     size = place.number()
     if rest.low > (size * real(1e-6)).high:
         return near("yardstick", place, rest)
-    most = front.alone[name].first.exact.reachable(Place({}))
-    if most is None:
-        return "yardstick", place, None, ONE
-    return "yardstick", place, largest(most, front.machine.square) * ABOUT_ONE - size, size
+    reach = front.reachable(name)
+    return "yardstick", place, None if reach is None else reach * ABOUT_ONE - size, size
 
 
 def _point(front: WorstFront, scale: Place, answer: Place) -> Claims:
@@ -128,21 +136,19 @@ def _point(front: WorstFront, scale: Place, answer: Place) -> Claims:
     if answer / "balance_shafts_mass_kg":
         yield near("total_mass", answer / "balance_shafts_mass_kg", there.on_shafts_mass)
     bare = fixed_alone(machine, there)
-    sides = [Value(front.part, side, front.both.off) for side in (there, bare)]
-    rooms = yield from margins(answer / "counterweights", sides[:1], sides[1:], optimal)
+    worst, rest = ([Value(part, side, front.both.off) for part in front.parts] for side in (there, bare))
+    rooms = yield from margins(answer / "counterweights", worst, rest, optimal)
     if machine.budget is not None:
-        most = float(machine.budget)
-        rooms["max_total_mass"] = 1 - float(there.mass) / most if most > 0 else 0.0
+        budget = float(machine.budget)
+        rooms["max_total_mass"] = 1 - float(there.mass) / budget if budget > 0 else 0.0
     yield from listed("active_limits", answer / "active_limits", rooms)
     peaks, left = front.peaks(there), machine.responses(there.first)
     for name, unit in NAMES.items():
         co, counter = left[name]
         yield near("after", answer / f"{name}_peak_{unit}", abs(co) + abs(counter))
         yield near("objective", answer / f"weighted_{name}_peak_{unit}", peaks[name])
-        worst = sides[0].of_first_order(name)
-        yield within(
-            "worst_case", answer / "worst_case" / f"{name}_peak_{unit}", worst.low, worst.high, WIDE * worst.high
-        )
+        peak, place = most([case.of_first_order(name) for case in worst]), answer / "worst_case" / f"{name}_peak_{unit}"
+        yield within("worst_case", place, peak.low, peak.high, WIDE * peak.high)
     yield from _corner(front, scale, answer, peaks, optimal)
     yield from _mass(front, scale, answer, peaks, there, optimal)
     if not optimal:
@@ -177,14 +183,14 @@ def _mass(front: WorstFront, scale: Place, answer: Place, peaks: Peaks, there: F
     if not place:
         return
     limits = {name: proof / f"mass_{name}_limit_{unit}" for name, unit in NAMES.items()}
-    most = {name: limit.number(0.0) for name, limit in limits.items()}
+    up_to = {name: limit.number(0.0) for name, limit in limits.items()}
     implied, least = proof / "implied_max_mass_kg", place.number() - fixed
-    rooms, open_ended = {name: most[name] - peaks[name] for name in most}, False
+    rooms, open_ended = {name: up_to[name] - peaks[name] for name in up_to}, False
     if least.high <= 0:
         yield "mass_lower_bound", place, -least, ONE
         yield EVIDENCE, multipliers, None, ONE
     else:
-        of = front.proven(front.both, multipliers, implied, most, ONE) if multipliers else None
+        of = front.proven(front.both, multipliers, implied, up_to, ONE) if multipliers else None
         of = None if of is None else of._replace(beyond=of.beyond - least, worth=place.number())
         open_ended = front.both.mixed and of is not None and of.beyond.high < 0
         yield from _claimed("mass_lower_bound", place, of, multipliers, implied, front.both.mixed)
@@ -193,10 +199,10 @@ def _mass(front: WorstFront, scale: Place, answer: Place, peaks: Peaks, there: F
             # where it is not told what is proven, nor is for which peaks
             room = rooms[name]
             yield "mass_lower_bound", limit, None if open_ended and room.high >= 0 else room, peaks[name]
-    first, size = front.part, proof / "mass_yardstick_kg"
+    first, size = front.parts[0], proof / "mass_yardstick_kg"
     if size and abs(size.number() - mass).low <= (mass * SPECK).high:
         yield near("yardstick", size, mass)
-    elif not (first.geared or first.exact.caps or front.both.mixed):
+    elif not (first.geared or first.exact.caps or front.both.mixed or len(front.parts) > 1):
         sizes = {name: (scale / f"{name}_{unit}").number() for name, unit in NAMES.items()}
         yield from light(first.exact, proof, sizes, there.mass)
     wide, gap = size.number(0.0), mass - place.number()

@@ -78,6 +78,11 @@ class Task:
         """Whether more counts than the machine as it is given."""
         return bool(self.scenarios) or (self.tolerances is not None and self.tolerances.any)
 
+    @property
+    def uncertain(self) -> bool:
+        """Whether an answer tells its worst case: of scenarios, or of tolerances, of nothing too."""
+        return bool(self.scenarios) or self.tolerances is not None
+
     @cached_property
     def choice(self) -> Choice | None:
         """What counterweights are chosen from; None is any mass at any angle."""

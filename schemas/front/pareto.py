@@ -79,7 +79,7 @@ class ParetoRequest(OptimizeRequest):
 
     def rules(self) -> Iterator[Rule]:
         yield from super().rules()
-        yield from self.case_refusals("remove it: a front is of one machine")
+        yield from self.allowance_rules("remove it: counts, or the mass among the responses, trade what choices cost")
         yield from self._trade_rules()
         if self.tolerances is not None and self.machine.choice == "semicontinuous":
             yield from self._scatter_rules(self.tolerances)

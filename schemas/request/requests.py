@@ -125,6 +125,11 @@ class OptimizeRequest(Scene, Ruled):
         return any(True for _ in stated(self)) or (self.tolerances is not None and self.tolerances.any)
 
     @property
+    def uncertain(self) -> bool:
+        """Whether an answer tells its worst case: of cases, or of tolerances, of nothing too."""
+        return any(True for _ in stated(self)) or self.tolerances is not None
+
+    @property
     def cases(self) -> tuple[Case, ...]:
         """Machines that the counterweights are to suit in place of the one that is given, if any are stated."""
         return cases(self)
@@ -157,12 +162,12 @@ class OptimizeRequest(Scene, Ruled):
     def worst_case_rules(self, message: str) -> Iterator[Rule]:
         """Cases, tolerances and allowances that are given where only the machine as it is can be asked for."""
         yield Rule(self.tolerances is not None, ("tolerances",), message)
-        yield from self.case_refusals(message)
-
-    def case_refusals(self, message: str) -> Iterator[Rule]:
-        """Cases and allowances that are given where one machine alone can be asked for."""
         for field in stated(self):
             yield Rule(True, (field,), message)
+        yield from self.allowance_rules(message)
+
+    def allowance_rules(self, message: str) -> Iterator[Rule]:
+        """Allowances that are given where no cheaper choices are listed."""
         yield Rule(bool(self.alternatives), ("alternatives",), message)
 
     def _alternative_rules(self, choice: Choice | None) -> Iterator[Rule]:

@@ -26,8 +26,8 @@ def separate(base: OptimizeRequest | AnalyzeRequest, targets: Sequence[Target]) 
     if not isinstance(base, OptimizeRequest):
         return False
     plates = any(web.envelope is not None for web in base.machine.webs)
-    # cuts find what scatters
-    alone = plates or base.machine.web_groups or base.tolerances is not None
+    # cuts find what scatters, and scenarios are machines of their own
+    alone = plates or base.machine.web_groups or base.uncertain
     return bool(alone or searched(base, targets))
 
 

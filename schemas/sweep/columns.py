@@ -106,8 +106,8 @@ def worst_peak(name: str) -> str:
 
 
 def worst_columns(base: OptimizeRequest, targets: Sequence[Target]) -> Iterator[Column]:
-    """What counterweights come to where all is off that may be, and what that costs; none where nothing may be off."""
-    if base.tolerances is None:
+    """What counterweights come to in the worst case, and what that costs; none without scenarios and tolerances."""
+    if not base.uncertain:
         return
     for column in _residual(base, targets):
         yield column._replace(name=worst_peak(column.name), meaning=f"{column.meaning}, in the worst case")

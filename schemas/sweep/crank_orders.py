@@ -75,7 +75,11 @@ class CrankOrders:
 
 
 def crank_orders(
-    machine: Machine, angles_deg: Sequence[float], alike_across: bool = True, fitted: bool = False
+    machine: Machine,
+    angles_deg: Sequence[float],
+    alike_across: bool = True,
+    fitted: bool = False,
+    distinct: bool = False,
 ) -> CrankOrders:
     """The orders of angles on the throws of a machine.
 
@@ -83,6 +87,7 @@ def crank_orders(
     ----------
     alike_across : whether all directions across the shaft count alike.
     fitted : whether counterweights are given, which stand at angles and on webs of their own.
+    distinct : whether every sequence is a machine of its own, as scenarios change parts of some throws.
     """
     reduced = [angle % 360.0 for angle in angles_deg]
     different: list[float] = []
@@ -92,6 +97,8 @@ def crank_orders(
     different.sort()
     counts = Counter(_number(different, angle) for angle in reduced)
     times = tuple(counts[k] for k in range(len(different)))
+    if distinct:
+        return CrankOrders(tuple(different), times, (Symmetry(tuple(range(len(different))), False),))
     symmetries = {
         Symmetry(image, ends): None
         for image in _images(machine, different, times, alike_across, fitted)

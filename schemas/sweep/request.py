@@ -25,6 +25,8 @@ from schemas.sweep.details import key
 MAX_AXES = 64
 #: parts of a request that an axis may vary
 _ROOTS = ("machine", "objective", "counterweights", "tolerances")
+#: field of a scenario that makes no throw another one
+_OF_ALL_THROWS = "/machine/speed_rpm"
 
 ColumnName = Annotated[str, Field(max_length=512)]
 
@@ -208,7 +210,8 @@ class SweepRequest(Ruled):
             yield FieldProblem(("multipliers",), "serves only to optimize: what is analyzed has no certificate")
         yield from alone_problems(self.base)
         if isinstance(self.base, OptimizeRequest):
-            for broken, path, message in self.base.case_refusals("serves only to optimize one machine, not a sweep"):
+            rules = self.base.allowance_rules("remove it: a row has no columns for cheaper choices")
+            for broken, path, message in rules:
                 if broken:
                     yield FieldProblem(("base", *path), message)
         for j, output in enumerate(self.base.outputs):
@@ -235,7 +238,7 @@ class SweepRequest(Ruled):
             yield FieldProblem(("angles_deg",), f"at most {MAX_ORDERED} throws are put in order")
         else:
             fitted = isinstance(self.base, AnalyzeRequest) and bool(self.base.counterweights)
-            orders = crank_orders(machine, angles, self._alike_across, fitted)
+            orders = crank_orders(machine, angles, self._alike_across, fitted, self._changes_parts)
             if orders.sequence_count > MAX_SEQUENCES:
                 message = f"at most {MAX_SEQUENCES} sequences are looked through; these angles make more"
                 yield FieldProblem(("angles_deg",), message)
@@ -243,6 +246,12 @@ class SweepRequest(Ruled):
             paths = (f"/machine/throws/{t}/crank_angle_deg" for t in range(len(angles)))
             self._targets = tuple(find_target(self.base, path) for path in paths)
             yield from self._search_problems()
+
+    @property
+    def _changes_parts(self) -> bool:
+        """Whether scenarios change more than the speed, which all throws have in common."""
+        cases = self.base.cases if isinstance(self.base, OptimizeRequest) else ()
+        return any(change.path != _OF_ALL_THROWS for case in cases for change in case.scenario.changes)
 
     @property
     def _alike_across(self) -> bool:

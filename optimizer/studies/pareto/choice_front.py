@@ -116,9 +116,10 @@ class _Boxes(ChoiceSearch):
         objective, field = self.task.objective, ("force_ceiling_N", "moment_ceiling_Nm")[axis]
         across = objective.direction_weights
         backwards = any(response.counter_influence is not None for response in self.scene.responses)
-        if (across.x, across.y) != (1.0, 1.0) or backwards or self.robust.scatter.share:
-            # a ceiling is of a whole vector, and of one length of it, which scatters with no choice; the boxes find the
-            # corner
+        weighed = any(scenario.weight != 1.0 for scenario in self.task.scenarios)
+        if (across.x, across.y) != (1.0, 1.0) or weighed or backwards or self.robust.scatter.share:
+            # a ceiling is of a whole vector, of all scenarios alike, and of one length of it, which scatters with no
+            # choice; the boxes find the corner
             return end
         most = float(end.values[axis] + _SLACK * self.gap * size[axis])
         limit = getattr(objective, field)
@@ -172,7 +173,7 @@ class _Boxes(ChoiceSearch):
             moment_peak_Nm=float(plain.moment.peak),
             weighted_force_peak_N=float(optimum.values[0]),
             weighted_moment_peak_Nm=float(optimum.values[1]),
-            worst_case=None if self.task.tolerances is None else worst_peaks(self.robust, best.unbalance),
+            worst_case=worst_peaks(self.robust, best.unbalance) if self.task.uncertain else None,
             **placement.fields,
             # of the request: a search has ceilings of its own
             active_limits=self._touched(best),

@@ -89,7 +89,7 @@ class ChoiceSearch:
 
     def nominal_values(self, u: Complex) -> Real | None:
         """The same with nothing off, where anything may be."""
-        if self.task.tolerances is None:
+        if not self.task.uncertain:
             return None
         return self._in_units(measures(nominal(self.robust).program, self.names), u)
 

@@ -276,8 +276,8 @@ def _end(
     The line starts a little above the smallest value of the first peak, at a value of the other that is proven to be
     too small, and is so steep that the first hardly rises; the corner that is proven there starts the next line.
     Where the front falls like a square root, the first peak still rises by the square of the slope, so that is the
-    root of the asked gap; a steeper line costs digits. Where counterweights scatter, the first peak may rise by next to
-    nothing along a straight front: there lines become steeper, as corners hardly move.
+    root of the asked gap; a steeper line costs digits. Where counterweights scatter, or in several scenarios, the first
+    peak may rise by next to nothing along a straight front: there lines become steeper, as corners hardly move.
     """
     second = 1 - first
     unit = size * np.where(np.arange(2) == first, np.sqrt(share), 1.0)
@@ -293,7 +293,7 @@ def _end(
         if rise <= share * size[second]:
             break
         anchor = np.where(np.arange(2) == second, point.corner, anchor)
-        if trade.minimax.norms.scatter and rise > _SLOW * last:
+        if trade.bent and rise > _SLOW * last:
             unit = unit * np.where(np.arange(2) == first, _STEEPER, 1.0)
         last = rise
     corner, proof = max(corners, key=lambda pair: float(pair[0][second]))

@@ -41,7 +41,7 @@ class Lines:
         task, scene = robust.task, robust.scene
         self.traded = measures(robust.goals().program, names)
         #: with nothing off, where anything may be
-        self.nominal = measures(nominal(robust).program, names) if task.tolerances is not None else None
+        self.nominal = measures(nominal(robust).program, names) if task.uncertain else None
         #: whether counterweights have shown changes of masses that are worse than those known before
         self.learnt = False
         self.square = np.array([1.0 if name == "mass" else scene.omega_squared for name in names])

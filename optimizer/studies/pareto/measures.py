@@ -105,7 +105,7 @@ def measures(program: Problem, names: tuple[Traded, ...]) -> Measures:
     every = tuple(row for group in program.groups for row in group.rows)
     groups = {
         "mass": Group((total_mass(program.limits, *program.scatter),)),
-        "objective": Group(tuple(_summed(program.groups))),
+        "objective": Group(tuple(row for goal in program.goals for of_case in _sums(goal) for row in _summed(of_case))),
     } | {
         name: Group(
             tuple(row for row in every if row.peaks[0].name == name),
@@ -120,6 +120,13 @@ def measures(program: Problem, names: tuple[Traded, ...]) -> Measures:
         if name not in ("mass", "objective")
     }
     return Measures(names, program, tuple(groups[name] for name in names))
+
+
+def _sums(goal: Goal) -> Iterator[Sequence[Group]]:
+    """The sums of which a goal is the largest: one, or one of every case."""
+    cases = goal.cases or (0,) * len(goal.groups)
+    for case in dict.fromkeys(cases):
+        yield [group for group, of in zip(goal.groups, cases, strict=True) if of == case]
 
 
 def _summed(groups: Sequence[Group]) -> Iterator[Row]:

@@ -21,7 +21,7 @@ from optimizer.program.solution import ConeSolution
 from optimizer.program.verdict import Claim, mass_resolution, verdict
 from optimizer.solve.answer_fields import touched_ceilings
 from optimizer.solve.prices import touched_by_mass
-from optimizer.solve.proof import bound_multipliers, implied_max_mass, physical
+from optimizer.solve.proof import Speeds, bound_multipliers, implied_max_mass, physical
 from optimizer.solve.solution import Infeasible, finite_or_null
 from optimizer.solve.solve import solve
 from optimizer.solve.uncertain_program import Robust
@@ -164,7 +164,7 @@ def _certified(request: ParetoRequest, robust: Robust, curve: Front) -> ParetoFr
         smallest_moment_Nm=last.weighted_moment_peak_Nm,
         smallest_moment_lower_bound_Nm=float(ideal[1]),
         force_at_smallest_moment_N=last.weighted_force_peak_N,
-        multipliers=_of_ends(curve, square) if request.multipliers else None,
+        multipliers=_of_ends(curve, square, goals.speeds) if request.multipliers else None,
     )
     excess = max(
         (ends.smallest_force_N - ends.smallest_force_lower_bound_N) / scale[0],
@@ -228,7 +228,7 @@ def _point(request: ParetoRequest, robust: Robust, goals: Goals, curve: Front, p
         weighted_force_peak_N=float(weighted[0]),
         weighted_moment_peak_Nm=float(weighted[1]),
         **placement.fields,
-        worst_case=worst_peaks(robust, u) if robust.task.tolerances is not None else None,
+        worst_case=worst_peaks(robust, u) if robust.task.uncertain else None,
         active_limits=tuple(dict.fromkeys((*touched_by_mass(machine, there), *ceilings))),
         certificate=CornerCertificate(
             force_N=finite_or_null(proven[0]),
@@ -245,7 +245,7 @@ def _point(request: ParetoRequest, robust: Robust, goals: Goals, curve: Front, p
             implied_max_mass_kg=_implied(request, machine, curve),
             method=point.solution.method,
         ),
-        multipliers=_of_point(traded, point, square) if request.multipliers else None,
+        multipliers=_of_point(traded, point, square, goals.speeds) if request.multipliers else None,
     )
 
 
@@ -256,20 +256,23 @@ def _implied(request: ParetoRequest, machine: Machine, curve: Front) -> dict[str
     )[0]
 
 
-def _of_point(traded: Trade, point: FrontPoint, omega_squared: float) -> Multipliers:
+def _of_point(traded: Trade, point: FrontPoint, omega_squared: float, speeds: Speeds) -> Multipliers:
     """The proofs of a point: of its corner, and of its mass."""
     minimax, of_mass = traded.minimax, point.mass_proof
     return Multipliers(
-        objective=bound_multipliers(minimax, physical(minimax, point.proof, "parameter", omega_squared)),
-        mass=None if of_mass is None else bound_multipliers(minimax, physical(minimax, of_mass, "mass", omega_squared)),
+        objective=bound_multipliers(minimax, physical(minimax, point.proof, "parameter", omega_squared, speeds)),
+        mass=None
+        if of_mass is None
+        else bound_multipliers(minimax, physical(minimax, of_mass, "mass", omega_squared, speeds)),
     )
 
 
-def _of_ends(curve: Front, omega_squared: float) -> EndMultipliers:
+def _of_ends(curve: Front, omega_squared: float, speeds: Speeds) -> EndMultipliers:
     """The proofs of both smallest peaks."""
     minimax = curve.trade.minimax
     force, moment = (
-        bound_multipliers(minimax, physical(minimax, proof, "objective", omega_squared)) for proof in curve.ideal_proofs
+        bound_multipliers(minimax, physical(minimax, proof, "objective", omega_squared, speeds))
+        for proof in curve.ideal_proofs
     )
     return EndMultipliers(smallest_force=force, smallest_moment=moment)
 

@@ -83,6 +83,11 @@ class Trade:
         return bounded(self.along(nothing, peaks), 1.0 - float(self._shift(nothing, peaks))).limits.max_mass
 
     @property
+    def bent(self) -> bool:
+        """Whether the front may have straight parts of any slope: weights scatter, or a peak has several rows."""
+        return self.minimax.norms.scatter > 0.0 or self.peak.size > len(PAIR)
+
+    @property
     def far(self) -> bool:
         """Whether a web has no limit, or one beyond any need, for a peak alone or for both."""
         return any(np.any(far_limits(program)) for program in (*self.alone, self.minimax))

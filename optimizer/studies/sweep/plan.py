@@ -171,12 +171,14 @@ def _seconds_per_design(request: SweepRequest) -> float:
     """Rough time of a design on one core."""
     seconds = _ROW_S + _SAMPLE_S * work_per_design(request.base, request.always, request.column_keys)
     seconds += _DETAIL_S * worked_out_alone(request)
+    # the machine as it is given is one more, for what the worst case costs
+    cases = 1 + len(request.base.cases) if isinstance(request.base, OptimizeRequest) else 1
     if request.over_the_turn:
-        seconds += _TURN_S + _CUTS_S * curves_over_turn(request)
+        seconds += _TURN_S + _CUTS_S * curves_over_turn(request) * cases
     elif request.searched and isinstance(request.base, OptimizeRequest):
         seconds += min(_SEARCH_S, request.base.accuracy.time_limit_s)
     elif request.separate:
-        seconds += _ALONE_S
+        seconds += _ALONE_S * cases
     elif isinstance(request.base, OptimizeRequest):
         per_web = _DISC_S if request.base.objective.combine == "sum" else _PROGRAM_S
         seconds += per_web * max(len(request.base.machine.every_web), 1)

@@ -8,7 +8,7 @@ from typing import Any, Generic, TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
-from optimizer.errors import OutOfRange
+from optimizer.errors import NotComputable
 from optimizer.formulation.placement import on_webs
 from optimizer.numerics.arrays import Complex, Real
 from optimizer.numerics.memoization import remembered
@@ -264,7 +264,7 @@ def _fill_singles(table: Rows, group: Group[OptimizeRequest], designs: Designs) 
             continue
         try:
             columns, unbalance = single_optima([alone], group.multipliers)
-        except OutOfRange as refusal:
+        except NotComputable as refusal:
             table.refuse(at, Rule(True, *refusal.problems[0]))
             continue
         table.put(at, columns)

@@ -46,7 +46,7 @@ def single_optima(requests: Sequence[OptimizeRequest], multipliers: bool) -> tup
 def _solved(task: Task, scene: Prepared) -> Solution | Infeasible:
     """The optimum of one design; of tolerances that are all 0 too with what it comes to in the worst case."""
     best = solve(task, scene, in_full=False)
-    if isinstance(best, Infeasible) or task.tolerances is None or task.robust:
+    if isinstance(best, Infeasible) or not task.uncertain or task.robust:
         return best
     return replace(best, fields=best.fields | nothing_off(task, scene, best.unbalance, best.certificate.objective))
 
@@ -82,7 +82,7 @@ def _row(request: OptimizeRequest, best: Solution | Infeasible, multipliers: boo
         )
     for name in CERTIFICATE:
         row[name] = _or_nan(getattr(certificate, name, None))
-    if request.tolerances is not None:
+    if request.uncertain:
         row |= _worst(request, best)
     goals = () if certificate is None else certificate.goals
     by_name: dict[str, GoalReached] = {goal.goal: goal for goal in goals}

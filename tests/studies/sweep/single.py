@@ -101,7 +101,7 @@ def assert_close(name: str, found: float | None, expected: float | None, size: f
 def _labels(request: SweepRequest) -> set[str]:
     labels = {"index", "status", "message", *(pointer(target.path) for target in request.targets)}
     # what scatters is found by either method
-    return labels if getattr(request.base, "tolerances", None) is None else {*labels, "method"}
+    return {*labels, "method"} if getattr(request.base, "uncertain", False) else labels
 
 
 def _size(answer: OptimizeAnswer | AnalyzeAnswer, name: str) -> float:
@@ -134,11 +134,11 @@ def _figures(request: SweepRequest, answer: OptimizeAnswer | AnalyzeAnswer) -> A
             # the reason of what is chosen says what proved that there is nothing
             by_search = {"all were compared.": EXHAUSTED, "a tree of bounds over all of them proves it.": TREE}
             of_choices = (name for ending, name in by_search.items() if answer.status_reason.endswith(ending))
-            if request.base.tolerances is None:
+            if not request.base.uncertain:
                 yield "method", next(of_choices, usual)
         else:
             yield from _certificate_figures(answer.certificate)
-        if request.base.tolerances is not None:
+        if request.base.uncertain:
             yield from _worst_figures(request, answer)
         on_shafts = (one for shaft in answer.balance_shafts or () for one in shaft.counterweights)
         for one in (*answer.counterweights, *on_shafts):
