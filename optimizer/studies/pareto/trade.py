@@ -84,8 +84,8 @@ class Trade:
 
     @property
     def bent(self) -> bool:
-        """Whether the front may have straight parts at any slope: counterweights scatter, or a peak has several rows."""
-        return self.both.norms.scatter or self.peak.size > len(PAIR)
+        """Whether parts of the front may be straight at any slope: something scatters, or a peak has several rows."""
+        return self.both.norms.scatter > 0.0 or self.peak.size > len(PAIR)
 
     @property
     def far(self) -> bool:

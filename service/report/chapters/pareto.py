@@ -21,8 +21,8 @@ _REASONS: dict[Reason, str] = {
 }
 
 _WORST = (
-    "Weighted peaks are those of the worst case, with everything off that may be: they are traded. Peak force and"
-    " moment are those of the machine as it is given."
+    "Weighted peaks are those of the worst case of all scenarios, with everything off that may be: they are traded."
+    " Peak force and moment are those of the machine as it is given."
 )
 
 
