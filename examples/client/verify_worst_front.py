@@ -54,8 +54,8 @@ class WorstFront:
         values = {}
         for name, program in self.alone.items():
             nothing = [ZERO for _ in program.webs]
-            each = (part.value(part.machine.there, program.off, nothing) for part in program.parts.values())
-            values[name] = largest(*each) * ABOUT_ONE
+            peaks = (part.value(part.machine.there, program.off, nothing) for part in program.parts.values())
+            values[name] = largest(*peaks) * ABOUT_ONE
         return values
 
     def reachable(self, name: str) -> Optional[Number]:

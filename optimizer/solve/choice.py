@@ -46,12 +46,13 @@ _OF_GAP = 0.5
 _ROUNDING = 1e-12
 
 
-def best_choice(task: Task, scene: Prepared, in_full: bool = True) -> Solution | Infeasible:
+def best_choice(task: Task, scene: Prepared, in_full: bool = True, worst_case: bool = True) -> Solution | Infeasible:
     """Of what can be chosen the best, over the turn and in the worst of all scenarios.
 
     Parameters
     ----------
     in_full : with what misplaced counterweights may cost.
+    worst_case : with what the worst case costs.
 
     Raises
     ------
@@ -61,7 +62,7 @@ def best_choice(task: Task, scene: Prepared, in_full: bool = True) -> Solution |
         if a machine lacks what the objective needs.
     """
     if task.choice == "semicontinuous":
-        free = best_of_any_mass(task, scene, in_full)
+        free = best_of_any_mass(task, scene, in_full, worst_case)
         if isinstance(free, Infeasible) or _heavy_enough(task, free.mass):
             return free
     any_mass = task.of_any_mass
@@ -103,7 +104,7 @@ def best_choice(task: Task, scene: Prepared, in_full: bool = True) -> Solution |
         _levels_of(course.levels, goals.program, picked, scene.omega_squared),
     )
     answer = solution_of(task, scene, goals, Candidate(picked.mass, picked.angle, best), judged, proof, in_full)
-    if task.robust:
+    if task.robust and worst_case:
         answer = with_worst_case(robust, answer, *_nominal_choice(task, scene, robust.left_s))
     return answer
 

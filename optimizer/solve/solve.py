@@ -7,12 +7,13 @@ from optimizer.solve.solution import Infeasible, Solution
 from optimizer.solve.worst_case import best_of_any_mass
 
 
-def solve(task: Task, scene: Prepared, in_full: bool = True) -> Solution | Infeasible:
+def solve(task: Task, scene: Prepared, in_full: bool = True, worst_case: bool = True) -> Solution | Infeasible:
     """The best counterweights, in the worst of all cases where there are several.
 
     Parameters
     ----------
     in_full : with prices of the limits and what misplaced counterweights may cost.
+    worst_case : with what the worst case costs beside the best of the machine as it is given, which is another search.
 
     Raises
     ------
@@ -21,4 +22,4 @@ def solve(task: Task, scene: Prepared, in_full: bool = True) -> Solution | Infea
     MissingInput
         if a machine lacks what the objective needs.
     """
-    return (best_of_any_mass if task.choice is None else best_choice)(task, scene, in_full)
+    return (best_of_any_mass if task.choice is None else best_choice)(task, scene, in_full, worst_case)

@@ -34,12 +34,15 @@ _NO_PROOF: Mapping[str, object] = {}
 _NO_PRICE = " The time limit ended before the nominal optimum of price_of_robustness was found."
 
 
-def best_of_any_mass(task: Task, scene: Prepared, in_full: bool = True) -> Solution | Infeasible:
+def best_of_any_mass(
+    task: Task, scene: Prepared, in_full: bool = True, worst_case: bool = True
+) -> Solution | Infeasible:
     """Counterweights of any mass that are optimal, in the worst of all cases where there are several.
 
     Parameters
     ----------
     in_full : with prices of the limits and what misplaced counterweights may cost.
+    worst_case : with what the worst case costs.
 
     Raises
     ------
@@ -51,7 +54,7 @@ def best_of_any_mass(task: Task, scene: Prepared, in_full: bool = True) -> Solut
     if isinstance(result, Conflict):
         return out_of_reach(task, scene, goals, result)
     solution = fitted(task, scene, goals, result, robust.demand, in_full)
-    return _beside_nominal(robust, goals, solution) if task.robust else solution
+    return _beside_nominal(robust, goals, solution) if task.robust and worst_case else solution
 
 
 def _beside_nominal(robust: Robust, goals: Goals, solution: Solution) -> Solution:

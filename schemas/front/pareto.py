@@ -235,18 +235,19 @@ class ParetoPoint(Model):
     )
     moment_peak_Nm: NewtonMetres = Field(description="first-order peak moment, likewise", examples=[20123.28])
     weighted_force_peak_N: Newtons = Field(
-        description="peak of the force with direction weights in the worst case, which is traded; the peak force where"
-        " both are 1 and nothing is off",
+        description="peak of the force with direction weights in the worst case, which is traded, times the weight of"
+        " its scenario; the peak force where all are 1 and nothing is off",
         examples=[7504.6],
     )
     weighted_moment_peak_Nm: NewtonMetres = Field(
-        description="peak of the moment with direction weights in the worst case, which is traded; the peak moment"
-        " where both are 1 and nothing is off",
+        description="peak of the moment with direction weights in the worst case, which is traded, times the weight of"
+        " its scenario; the peak moment where all are 1 and nothing is off",
         examples=[20123.28],
     )
     worst_case: WorstPeaks | None = Field(
         None,
-        description="both peaks without direction weights in the worst case; null without tolerances",
+        description="both peaks in the worst case, without weights of directions and scenarios; null without scenarios"
+        " and tolerances",
         examples=[None],
     )
     total_mass_kg: Kilograms = Field(

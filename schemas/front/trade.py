@@ -78,13 +78,13 @@ class TradedPoint(Model):
         examples=["The gap to the proven lower bound is within the asked one, and every limit is kept."],
     )
     values: tuple[float, ...] = Field(
-        description="one for each response, in their order, in the worst case; of what is known by a bracket its upper"
-        " end",
+        description="one for each response, in their order, in the worst case, with the weights of scenarios; of what"
+        " is known by a bracket its upper end",
         examples=[[99000.0, 41.2]],
     )
     nominal_values: tuple[float, ...] | None = Field(
         None,
-        description="the same of the machine as it is given, nothing off; null without tolerances",
+        description="the same of the machine as it is given, nothing off; null without scenarios and tolerances",
         examples=[None],
     )
     beaten_by: int | None = Field(

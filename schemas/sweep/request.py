@@ -210,8 +210,8 @@ class SweepRequest(Ruled):
             yield FieldProblem(("multipliers",), "serves only to optimize: what is analyzed has no certificate")
         yield from alone_problems(self.base)
         if isinstance(self.base, OptimizeRequest):
-            rules = self.base.allowance_rules("remove it: a row has no columns for cheaper choices")
-            for broken, path, message in rules:
+            no_columns = "remove it: a row has no columns for cheaper choices"
+            for broken, path, message in self.base.allowance_rules(no_columns):
                 if broken:
                     yield FieldProblem(("base", *path), message)
         for j, output in enumerate(self.base.outputs):

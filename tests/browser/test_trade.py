@@ -5,6 +5,7 @@ from typing import Any
 import pytest
 
 from tests.browser.portal import Portal, ask, cells, number
+from tests.night import at_night
 
 
 def _weigh(portal: Portal, **values: str) -> None:
@@ -133,6 +134,31 @@ def test_where_something_may_be_off_the_worst_case_is_traded(portal: Portal, url
     worst = points[0]["worst_case"]
     assert shown == pytest.approx([worst["force_peak_N"], worst["moment_peak_Nm"]], rel=1e-4)
     assert worst["moment_peak_Nm"] > 1.001 * points[0]["moment_peak_Nm"]
+
+
+@at_night
+def test_of_several_scenarios_the_worst_is_traded(portal: Portal, url: str) -> None:
+    portal.open("two-rows-180")
+    portal.unfold("/scenarios")
+    portal.page.locator("#form").get_by_role("button", name="Add scenario").click()
+    portal.unfold("/scenarios/0", "/scenarios/0/changes")
+    portal.input("/scenarios/0/name").fill("fast")
+    portal.page.locator("#form").get_by_role("button", name="Add change").click()
+    portal.unfold("/scenarios/0/changes/0")
+    portal.input("/scenarios/0/changes/0/path").fill("/machine/speed_rpm")
+    portal.input("/scenarios/0/changes/0/value").fill("700")
+    portal.optimise()
+    panel = portal.open_panel("pareto")
+    panel.locator("[role=img][aria-label*='peak force in the worst case, N']").wait_for()
+    body = portal.bodies("/v1/pareto")[-1]
+    points = ask(url, "/v1/pareto", body)["fronts"][0]["points"]
+    panel.locator("#pareto-point").press("Home")
+    panel.get_by_role("heading", name=f"Point 1 of {len(points)}").wait_for()
+    shown = [number(text) for text in cells(panel.locator(".picked table").first)[0][:2]]
+    # analytic: forces are as the squares of the speeds
+    of_given = [points[0]["force_peak_N"], points[0]["moment_peak_Nm"]]
+    times = (700.0 / body["machine"]["speed_rpm"]) ** 2
+    assert shown == pytest.approx([times * peak for peak in of_given], rel=1e-4, abs=1e-4)
 
 
 def test_points_show_what_balance_shafts_carry(portal: Portal, url: str) -> None:

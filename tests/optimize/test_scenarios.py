@@ -179,22 +179,12 @@ def test_scenarios_that_are_none_are_refused_by_name(scenarios: list[dict[str, A
     assert any(f"scenarios/{pointer}" in each for each in found), found
 
 
-def test_sweeps_fronts_and_the_ladder_refuse_them_by_name() -> None:
-    body = {"machine": crank(), "scenarios": [{"name": "a"}]}
-    axis = {"path": "/machine/speed_rpm", "values": [100.0]}
-    with pytest.raises(ValidationError, match="not a sweep"):
-        SweepRequest.model_validate({"base": body, "axes": [axis]})
-    with pytest.raises(ValidationError, match="a front is of one machine"):
-        ParetoRequest.model_validate(body)
-    with pytest.raises(ValidationError, match="machine as it is given"):
-        AccuracyRequest.model_validate(body)
-
-
-def test_tolerances_go_with_sweeps_and_fronts_and_not_with_the_ladder() -> None:
-    body = {"machine": crank(), "tolerances": {}}
+@pytest.mark.parametrize("case", [{"scenarios": [{"name": "a"}]}, {"tolerances": {}}])
+def test_sweeps_and_fronts_take_several_cases_and_the_ladder_does_not(case: dict[str, Any]) -> None:
+    body = {"machine": crank(), **case}
     axis = {"path": "/machine/speed_rpm", "values": [100.0]}
     assert SweepRequest.model_validate({"base": body, "axes": [axis]}).separate
-    assert ParetoRequest.model_validate(body).tolerances is not None
+    assert ParetoRequest.model_validate(body).uncertain
     with pytest.raises(ValidationError, match="machine as it is given"):
         AccuracyRequest.model_validate(body)
 

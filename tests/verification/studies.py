@@ -22,7 +22,7 @@ from service.common.validation import check
 Body = dict[str, Any]
 
 #: what is of one machine alone
-_ALONE = ("scenarios", "alternatives", "fitted")
+_ALONE = ("alternatives", "fitted")
 #: values of an axis
 _LEVELS = (1, 2, 2, 3)
 #: of so many studies one asks for no multipliers

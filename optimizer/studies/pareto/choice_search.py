@@ -140,7 +140,7 @@ class ChoiceSearch:
         limit = min(max(seconds, _LEAST_TIME), self.seconds)
         gap = min(max(gap, _LEAST_GAP), 1.0)
         task = replace(self.task, machine=machine, objective=goal, relative_gap=gap, time_limit_s=limit)
-        best = solve(task, replace(self.scene, machine=machine, objective=goal), in_full=False)
+        best = solve(task, replace(self.scene, machine=machine, objective=goal), in_full=False, worst_case=False)
         if isinstance(best, Infeasible):
             return best
         values = np.where(self.is_mass, best.placement.mass_kg, self.values(best.unbalance))

@@ -106,7 +106,7 @@ def _free_webs(task: Task) -> np.ndarray:
 
 def _smallest(task: Task, scene: Prepared) -> BestSet:
     """The smallest objective, as a single answer has it."""
-    best = solve(task, scene, in_full=False)
+    best = solve(task, scene, in_full=False, worst_case=False)
     if isinstance(best, Infeasible):
         return none_of(task.machine, best.status, best.reason, best.nodes, best.method)
     proof, weights = best.certificate, best.placement.every_weight

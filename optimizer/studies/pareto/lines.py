@@ -59,7 +59,7 @@ class Lines:
             for index in range(len(traded.names)):
                 result = over_turn(traded.first(index, size, _END_SLACK), OPTIMUM_SHARE, False)
                 if isinstance(result, Conflict):
-                    return solve(self.task, self.scene, in_full=False)
+                    return solve(self.task, self.scene, in_full=False, worst_case=False)
                 self.learnt |= self.robust.learnt(result.point.unbalance)
                 ends.append(traded.values(result.point.unbalance))
                 gross = np.maximum(gross, traded.gross(result.point.unbalance))

@@ -287,7 +287,9 @@ def _reason(request: ParetoRequest, curve: Front, frontier: Sequence[ParetoPoint
 
 def _infeasible(request: ParetoRequest, machine: Machine, scene: Prepared) -> ParetoFront:
     """Which ceilings conflict, and what can be reached, as the optimum of one objective tells it."""
-    none = solve(replace(Task.of(request), machine=machine), replace(scene, machine=machine), in_full=False)
+    none = solve(
+        replace(Task.of(request), machine=machine), replace(scene, machine=machine), in_full=False, worst_case=False
+    )
     return ParetoFront(
         max_total_mass_kg=machine.max_total_mass_kg,
         status="infeasible",

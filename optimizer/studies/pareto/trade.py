@@ -84,7 +84,7 @@ class Trade:
 
     @property
     def bent(self) -> bool:
-        """Whether the front may have straight parts of any slope: weights scatter, or a peak has several rows."""
+        """Whether parts of the front may be straight at any slope: something scatters, or a peak has several rows."""
         return self.minimax.norms.scatter > 0.0 or self.peak.size > len(PAIR)
 
     @property

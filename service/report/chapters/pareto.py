@@ -11,6 +11,7 @@ from service.report.blocks import Block, Cell, Chapter, Number, Paragraph, Table
 from service.report.chapters.counts import counted
 from service.report.chapters.limits import limits
 from service.report.chapters.verdict import reachable
+from service.report.chapters.worst_case import stated_cases
 
 _REASONS: dict[Reason, str] = {
     "reached_together": "Force and moment are both smallest at the same counterweights: nothing has to be traded.",
@@ -21,14 +22,17 @@ _REASONS: dict[Reason, str] = {
 }
 
 _WORST = (
-    "Weighted peaks are those of the worst case, with everything off that may be: they are traded. Peak force and"
-    " moment are those of the machine as it is given."
+    "Weighted peaks are those of the worst case of all scenarios, with everything off that may be: they are traded."
+    " Peak force and moment are those of the machine as it is given."
 )
 
 
 def traded(request: ParetoRequest, answer: ParetoAnswer) -> Iterator[Chapter]:
     """The points of every front, what is proven of its ends, and its knee; or why there are none."""
     yield Chapter("Machine", (_bounds(answer),))
+    cases = tuple(stated_cases(request, "response"))
+    if cases:
+        yield Chapter("What the counterweights are to suit", cases)
     for front in answer.fronts:
         budget = front.max_total_mass_kg
         limit = "no limit of the total mass" if budget is None else f"total mass up to {digits(budget)} kg"

@@ -49,11 +49,11 @@ def worst_case(answer: OptimizeAnswer) -> Iterator[Chapter]:
         yield Chapter("Where things are off", tuple(blocks))
 
 
-def stated_cases(request: OptimizeRequest) -> Iterator[Block]:
-    """Scenarios and tolerances as they were stated."""
+def stated_cases(request: OptimizeRequest, subject: str = "objective") -> Iterator[Block]:
+    """Scenarios and tolerances as they were stated; ``subject``: what the largest of counts."""
     if request.cases:
         yield table(
-            "Scenarios: the largest weighted objective counts",
+            f"Scenarios: the largest weighted {subject} counts",
             ["scenario", "#weight", "field", "#value"],
             [
                 (scenario.name, scenario.weight, *change)

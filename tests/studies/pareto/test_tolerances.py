@@ -196,7 +196,6 @@ def test_a_point_of_named_responses_is_the_best_worst_case_of_its_mass(
     ("body", "more", "field"),
     [
         ({}, {"tolerances": {"mass_relative": -0.1}}, "tolerances.mass_relative"),
-        ({}, {"tolerances": OFF, "scenarios": [{"name": "as it is"}]}, "scenarios"),
         (
             {"webs": [{**straight()["webs"][0], "min_fitted_mass_kg": 1.0}]},
             {"tolerances": {"angle_deg": 2.0}, "responses": ["bearings", "mass"]},

@@ -102,7 +102,7 @@ def test_the_worst_case_grows_with_what_is_off(seed: int, share: float) -> None:
         ({"tolerances": {"mass_relative": 2.0}}, {"path": "/machine/speed_rpm", "values": [300]},
          "base.tolerances.mass_relative"),
         ({"tolerances": {}}, {"path": "/tolerances/weight", "values": [0.1]}, "axes.0.path"),
-        ({"scenarios": [{"name": "a"}]}, {"path": "/machine/speed_rpm", "values": [300]}, "base.scenarios"),
+        ({"scenarios": [{"name": "a"}]}, {"path": "/scenarios/0/weight", "values": [2]}, "axes.0.path"),
     ],
 )  # fmt: skip
 def test_what_is_wrong_is_refused_by_its_field(base: dict[str, Any], axis: dict[str, Any], field: str) -> None:
