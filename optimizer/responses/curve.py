@@ -167,7 +167,7 @@ def peaks_about(
     if group is None and all(response.curves is first for response in responses):
         # as mostly: there is nothing to be put together
         return first.pieces.peaks(offset, tolerance, number)
-    tolerances, sought = (
+    tolerances, owner = (
         np.broadcast_to(tolerance, len(responses)),
         np.arange(len(responses)) if group is None else group,
     )
@@ -175,10 +175,12 @@ def peaks_about(
     for k, response in enumerate(responses):
         together.setdefault(id(response.curves), []).append(k)
     groups, brackets = [], []
-    for some in together.values():
-        labels, of = np.unique(sought[some], return_inverse=True)
+    for numbers in together.values():
+        labels, of = np.unique(owner[numbers], return_inverse=True)
         groups.append(labels)
-        brackets.append(responses[some[0]].curves.pieces.peaks(offset[some], tolerances[some], number[some], of))
+        brackets.append(
+            responses[numbers[0]].curves.pieces.peaks(offset[numbers], tolerances[numbers], number[numbers], of)
+        )
     order = np.argsort(np.concatenate(groups))
     return Bracket(*(np.concatenate(part)[order] for part in zip(*brackets, strict=True)))
 

@@ -14,8 +14,8 @@ _MECHANICS: dict[str, str] = {
     "row_data.py _opened: np.where(closed, suction, 1.0) -> np.where(closed, suction, 1.011)": _OPEN,
     "friction.py reciprocating_friction: np.abs(motion.sine) < 1e-12 -> np.abs(motion.sine) <= 1e-12": _ALIKE,
     "layout.py _unbalances: angle + 180.0 -> angle - 180.0": "a whole turn",
-    "row_series.py functions: self._memo.get(True) or self._memo.get(pressed)"
-    " -> self._memo.get(True) and self._memo.get(pressed)": _SPEED,
+    "row_series.py functions: self._memo.get(True) or self._memo.get(with_gas)"
+    " -> self._memo.get(True) and self._memo.get(with_gas)": _SPEED,
     "whole_turn.py _alone: self.rows.crank_radius.shape[-1] -> self.rows.crank_radius.shape[+1]": "it has two axes",
     "indicated.py _WIDEST_PANEL": _FINER,
     "turn.py _NODES": _FINER,
