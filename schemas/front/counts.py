@@ -5,7 +5,7 @@ from typing import Literal
 from pydantic import Field
 
 from schemas.answer.counterweights import Counterweight, FittedShaft
-from schemas.base.model import Model, Shown
+from schemas.base.model import Displayable, Model
 from schemas.base.quantities import Kilograms, NewtonMetres, Newtons
 
 Counted = Literal["weights", "part_numbers", "pieces", "sizes"]
@@ -75,7 +75,7 @@ class CountPoint(Model):
     method: str = Field(description="what found it", examples=["exhaustion in halves"])
 
 
-class CountFront(Shown):
+class CountFront(Displayable):
     """The same for every number, under one limit of the total mass."""
 
     max_total_mass_kg: Kilograms | None = Field(

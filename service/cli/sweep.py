@@ -165,9 +165,10 @@ def _run(desk: "OwnerJobs", request: "SweepRequest", place: Path, quiet: bool) -
     try:
         return _watch(desk, job, quiet)
     except KeyboardInterrupt:
-        done = desk.get(job.id).done
+        rows_done = desk.get(job.id).done
         typer.echo(
-            f"interrupted after {done} of {job.total} designs; the same command goes on from there ({place})", err=True
+            f"interrupted after {rows_done} of {job.total} designs; the same command goes on from there ({place})",
+            err=True,
         )
         raise typer.Exit(_INTERRUPTED) from None
 

@@ -9,7 +9,7 @@ def _document(suffix: str, media_type: str, write: Reference, styles: str = "", 
     return Form(media_type, write, suffix, headers, compressed)
 
 
-def _picture(name: str, what: str) -> Computation:
+def _picture(name: str, subject: str) -> Computation:
     """A picture of the answer to an optimisation, drawn as the report draws it."""
     return Computation(
         name=f"picture_{name}",
@@ -17,7 +17,7 @@ def _picture(name: str, what: str) -> Computation:
         request="schemas.request.picture:PictureRequest",
         answer=None,
         compute=f"service.report.pictures:{name}",
-        summary=f"{what}, as SVG or PNG",
+        summary=f"{subject}, as SVG or PNG",
         remark="The header `Accept` chooses; `picture` says size, ground and title. "
         "With the counterweights that are found to be best, or those of the best compromise where none keep the "
         "ceilings.",
@@ -29,7 +29,7 @@ def _picture(name: str, what: str) -> Computation:
     )
 
 
-def _table(name: str, what: str) -> Computation:
+def _table(name: str, subject: str) -> Computation:
     """A table of the answer to an optimisation, a number in every cell."""
     headers = (("Content-Disposition", f'attachment; filename="{name}.csv"'),)
     return Computation(
@@ -38,7 +38,7 @@ def _table(name: str, what: str) -> Computation:
         request="schemas.request.requests:OptimizeRequest",
         answer=None,
         compute=f"service.tables.tables:{name}",
-        summary=f"{what}, as CSV",
+        summary=f"{subject}, as CSV",
         remark="Of the answer to an optimisation; the first line holds the headings, with units.",
         tag="tables",
         forms=(Form("text/csv; charset=utf-8; header=present", "service.tables.lines:as_csv", ".csv", headers),),

@@ -87,7 +87,7 @@ def as_built(request: OptimizeRequest, answer: OptimizeAnswer) -> AsBuilt | None
 
 
 def _pairs(optimum: Sequence[Counterweight], built: Sequence[Counterweight]) -> Iterator[Pair]:
-    best, fitted = ({counterweight.web: counterweight for counterweight in some} for some in (optimum, built))
+    best, fitted = ({counterweight.web: counterweight for counterweight in weights} for weights in (optimum, built))
     for web in dict.fromkeys((*best, *fitted)):
         yield Pair(web, best.get(web), fitted.get(web))
 

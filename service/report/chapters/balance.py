@@ -138,13 +138,13 @@ def stages(machine: Machine, results: Sequence[Stage] | None, missing: Sequence[
         ["stage", "<quantity", "<formula"],
         [(stage.stage, stage.quantity, formula(stage.formula)) for stage in results],
     )
-    drawn = Figure(
+    scheme = Figure(
         (stage_scheme(machine, results),),
         "Scheme of the stages, from the front at shaft angle 0, each with a scale of its own: cranks black, row axes "
         "dash-dotted, forces orange and dashed without counterweights, blue what they leave. What turns is a circle "
         "with an arrow, what keeps its direction a line; of a moment the line is the trace of its plane.",
     )
-    return Chapter(title, (drawn, values, where, formulas, *_rules(results), Paragraph(_SOURCES)))
+    return Chapter(title, (scheme, values, where, formulas, *_rules(results), Paragraph(_SOURCES)))
 
 
 def _rules(results: Sequence[Stage]) -> Iterator[Block]:
@@ -235,12 +235,10 @@ def before_and_after(request: OptimizeRequest, answer: OptimizeAnswer, built: As
     """First-order force and moment, what the counterweights leave, and what those that are fitted do."""
     _, left = shown(answer)
     # where all orders are asked for they have a chapter
-    shown_orders = two_orders(answer.residual.orders) if answer.orders is None else None
+    orders = two_orders(answer.residual.orders) if answer.orders is None else None
     filed = None if built is None else built.left
     gaps = resolutions(request, answer)
-    return first_order(
-        request.machine, answer.residual.before, left, answer.floor, which(answer), shown_orders, filed, gaps
-    )
+    return first_order(request.machine, answer.residual.before, left, answer.floor, which(answer), orders, filed, gaps)
 
 
 def first_order(

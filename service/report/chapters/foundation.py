@@ -32,29 +32,29 @@ def foundation_loads(loads: Sequence[OrderOfFoundation]) -> Chapter:
 
 def _tables(loads: Sequence[OrderOfFoundation], names: Mapping[str, str], kind: str, unit: str) -> Iterator[Block]:
     """The loads of one kind, and a sentence on those that are left out."""
-    shown = sets(loads)
+    headings = sets(loads)
     rows: list[Row] = [
-        (order.order, words, tuple(oscillation(getattr(order, when), name) for when in shown))
+        (order.order, words, tuple(oscillation(getattr(order, when), name) for when in headings))
         for order in loads
         for name, words in names.items()
     ]
     largest = max(map(_largest, rows))
-    listed = [row for row in rows if _largest(row) > _SMALL * largest]
-    if listed:
-        yield _table(kind, unit, list(shown.values()), listed, largest)
-    rest = [row for row in rows if row not in listed]
+    entries = [row for row in rows if _largest(row) > _SMALL * largest]
+    if entries:
+        yield _table(kind, unit, list(headings.values()), entries, largest)
+    rest = [row for row in rows if row not in entries]
     if rest:
-        yield Paragraph(_left_out(kind, unit, rest, bool(listed)))
+        yield Paragraph(_left_out(kind, unit, rest, bool(entries)))
 
 
 def _largest(row: Row) -> float:
     return max((entry[0] for entry in row[2] if entry is not None), default=0.0)
 
 
-def _left_out(kind: str, unit: str, rest: Sequence[Row], some: bool) -> str:
+def _left_out(kind: str, unit: str, rest: Sequence[Row], has_entries: bool) -> str:
     most = max(map(_largest, rest))
-    what = f"{kind} of the orders asked for" if not some else f"{kind} that are not listed"
-    return f"{what} are 0." if most == 0.0 else f"{what} are at most {prose(most)} {unit}."
+    subject = f"{kind} of the orders asked for" if not has_entries else f"{kind} that are not listed"
+    return f"{subject} are 0." if most == 0.0 else f"{subject} are at most {prose(most)} {unit}."
 
 
 def _table(kind: str, unit: str, headings: Sequence[str], rows: Sequence[Row], scale: float) -> Table:

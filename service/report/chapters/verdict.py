@@ -157,7 +157,7 @@ def certificate(request: OptimizeRequest, answer: OptimizeAnswer) -> Chapter:
         words += "No lower bound is proven."
     else:
         words += (
-            f"{_what_bounds(proof)} bring it below "
+            f"{_bound_words(proof)} bring it below "
             f"{prose(proof.lower_bound)}. Other counterweights gain at most {_percent(proof.relative_gap)} of the "
             "objective without counterweights."
         )
@@ -196,7 +196,7 @@ def certificate(request: OptimizeRequest, answer: OptimizeAnswer) -> Chapter:
     return Chapter(title, (*blocks, *without_prices(request, answer)))
 
 
-def _what_bounds(proof: Certificate) -> str:
+def _bound_words(proof: Certificate) -> str:
     if proof.nodes is None:
         return "A lower bound in closed form shows that no counterweights within these limits"
     by = f"Branch and bound with {proof.nodes} nodes over" if proof.nodes else "The comparison of"

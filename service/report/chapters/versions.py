@@ -46,12 +46,12 @@ def compared(request: ReportRequest, answer: OptimizeAnswer) -> Iterator[Chapter
         return
     columns = [
         Column(_THIS, answer.status, shown(answer)[1], whole_mass(answer), every_counterweight(answer)),
-        *(_computed(request, place) for place in range(len(request.versions))),
+        *(_column(request, place) for place in range(len(request.versions))),
     ]
     yield Chapter("Versions compared", (_figures(columns), _weights(columns), *_differences(request)))
 
 
-def _computed(request: ReportRequest, place: int) -> Column:
+def _column(request: ReportRequest, place: int) -> Column:
     version = request.versions[place]
     try:
         if version.counterweights is not None:
@@ -122,9 +122,9 @@ def _differences(request: ReportRequest) -> Iterator[Block]:
 
 def _changes(request: ReportRequest, version: DesignVersion) -> Iterator[tuple[str, str, str]]:
     for name in ("machine", "objective"):
-        other = getattr(version, name)
-        if other is not None:
-            yield from _apart((name,), getattr(request, name).model_dump(mode="json"), other.model_dump(mode="json"))
+        part = getattr(version, name)
+        if part is not None:
+            yield from _apart((name,), getattr(request, name).model_dump(mode="json"), part.model_dump(mode="json"))
 
 
 def _apart(path: tuple[str | int, ...], here: Any, there: Any) -> Iterator[tuple[str, str, str]]:
