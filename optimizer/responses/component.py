@@ -126,5 +126,5 @@ class _ComponentParts:
     def _in_motion(self, cubic: Complex, rest: Real, centre: Real, half: Real) -> tuple[Complex, Real]:
         """Cubics (m, R, 4) and what they leave out (m, R), of vectors about centres (m,)."""
         wide = (np.repeat(array, rest.shape[-1]) for array in (centre, half))
-        along, left = self.curve.moved(cubic.reshape(-1, 4), rest.reshape(-1), *wide)
+        along, left = self.curve.in_motion(cubic.reshape(-1, 4), rest.reshape(-1), *wide)
         return along.reshape(cubic.shape), left.reshape(rest.shape)

@@ -18,7 +18,7 @@ import numpy as np
 from optimizer.numerics.arrays import Complex, Real, Reals, in_order
 from optimizer.numerics.records import record
 from optimizer.responses.floors import Floor, Floors
-from optimizer.responses.moving_curves import Harmonics, moved
+from optimizer.responses.moving_curves import Harmonics, with_harmonics
 from optimizer.responses.piecewise_cubics import Bracket, Index, Pieces
 from optimizer.responses.worst_masses import Parts
 
@@ -187,7 +187,7 @@ def peaks_about(
 
 def _moving(response: TurnResponse, by: Harmonics, tolerance: Reals) -> Bracket:
     """Peak (1,) of a curve to which counterweights add what turns; its value is that without them all the same."""
-    brackets = moved(response.curves.pieces, response.number, by).peaks(np.zeros(1, dtype=complex), tolerance)
+    brackets = with_harmonics(response.curves.pieces, response.number, by).peaks(np.zeros(1, dtype=complex), tolerance)
     return brackets._replace(value=brackets.value - by.at(brackets.angle))
 
 

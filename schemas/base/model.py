@@ -8,7 +8,7 @@ from pydantic.json_schema import JsonSchemaValue
 from pydantic_core import CoreSchema, PydanticCustomError, core_schema
 
 from schemas.base.form_hints import add_hints
-from schemas.base.notebook import line, shown
+from schemas.base.notebook import html, line
 from schemas.base.version import package_version
 
 
@@ -52,7 +52,7 @@ class Displayable(Model):
 
     def _repr_html_(self) -> str:
         """What a notebook shows."""
-        return shown(self)
+        return html(self)
 
 
 class Answer(Displayable):

@@ -95,7 +95,7 @@ def crank_orders(
     symmetries = {
         Symmetry(image, ends): None
         for image in _images(machine, different, times, alike_across, fitted)
-        for ends in ((False, True) if not fitted and _same_from_both_ends(machine) else (False,))
+        for ends in ((False, True) if not fitted and _same_from_either_end(machine) else (False,))
     }
     return CrankOrders(tuple(different), times, tuple(symmetries))
 
@@ -172,7 +172,7 @@ def _alike(first: Row, second: Row) -> bool:
     return all(getattr(first, name) == getattr(second, name) for name in fields)
 
 
-def _same_from_both_ends(machine: Machine) -> bool:
+def _same_from_either_end(machine: Machine) -> bool:
     """Whether throws, webs and bearings are the same from both ends, about the plane of moments if one is given."""
     throws = machine.throws
     ends = throws[0].position_m + throws[-1].position_m

@@ -7,7 +7,7 @@ from zipfile import ZIP_DEFLATED, ZipFile, ZipInfo
 
 from schemas.answer.counterweights import Counterweight
 from service.drawings.bill import as_csv, as_workbook
-from service.drawings.drawn import DrawingSet
+from service.drawings.drawing_set import DrawingSet
 from service.drawings.dxf import dxf
 from service.drawings.outline import rotation
 from service.drawings.parts import Part

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 from schemas.answer.counterweights import Counterweight
 from service.common.plain import inert, plain
-from service.drawings.drawn import DrawingSet
+from service.drawings.drawing_set import DrawingSet
 from service.drawings.parts import Part
 from service.tables.as_built import HEADS as BUILT_HEADS
 from service.tables.as_built import line

@@ -184,8 +184,8 @@ def _as_built(part: Part, built: AsBuilt | None) -> Iterator[str]:
             continue
         best, mass = pair.masses
         angle, rotation = "", ""
-        if pair.optimum is not None and pair.turned_deg is not None:
-            angle, rotation = f" at {pair.optimum.angle_deg:.4g}°", f" and {pair.turned_deg:+.3g}°"
+        if pair.optimum is not None and pair.rotation_deg is not None:
+            angle, rotation = f" at {pair.optimum.angle_deg:.4g}°", f" and {pair.rotation_deg:+.3g}°"
         yield (
             f"{shortened(pair.web, 24)}: as built {mass:.6g} kg; optimum {best:.6g} kg{angle}; "
             f"difference {mass - best:+.4g} kg{rotation}{_tolerance(built, best)}"

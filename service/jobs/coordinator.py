@@ -288,7 +288,7 @@ class Coordinator:
         if not self._active:
             return
         if self._suspects and not self._flights:
-            chunk = self._leases.claim(self._name, self._pace.lease_s, attempted=True, others=self._later)
+            chunk = self._leases.claim(self._name, self._pace.lease_s, attempted=True, exclusions=self._later)
             if chunk is not None:
                 self._submit(chunk)
                 return
@@ -297,7 +297,7 @@ class Coordinator:
         while not self._suspects and not self._stopping and len(self._flights) < window:
             # not all at once, as the next may be somebody else's turn
             count = min(max(1, window // _TURNS), window - len(self._flights))
-            claimed = self._leases.claim_some(self._name, self._pace.lease_s, count, others=self._later)
+            claimed = self._leases.claim_chunks(self._name, self._pace.lease_s, count, exclusions=self._later)
             if not claimed:
                 # what is left, if anything, went wrong before or is leased
                 self._suspects = True

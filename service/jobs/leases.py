@@ -48,13 +48,15 @@ class Leases:
         self._limits = limits or Limits()
         self._clock = clock
 
-    def claim(self, owner: str, lease_s: float, attempted: bool = False, others: Collection[str] = ()) -> Chunk | None:
-        """Lease one chunk, see :meth:`claim_some`."""
-        batch = self.claim_some(owner, lease_s, 1, attempted, others)
+    def claim(
+        self, owner: str, lease_s: float, attempted: bool = False, exclusions: Collection[str] = ()
+    ) -> Chunk | None:
+        """Lease one chunk, see :meth:`claim_chunks`."""
+        batch = self.claim_chunks(owner, lease_s, 1, attempted, exclusions)
         return batch[0] if batch else None
 
-    def claim_some(
-        self, owner: str, lease_s: float, most: int, attempted: bool = False, others: Collection[str] = ()
+    def claim_chunks(
+        self, owner: str, lease_s: float, most: int, attempted: bool = False, exclusions: Collection[str] = ()
     ) -> list[Chunk]:
         """Lease chunks of one job: of the owner with the fewest chunks in work, and of their job with the fewest, so
         that nobody waits for somebody else's large or many jobs.
@@ -63,13 +65,13 @@ class Leases:
         ----------
         most : there may be fewer; none if there is nothing to do.
         attempted : whether to lease chunks that went wrong before, or fresh ones.
-        others : jobs that are left to other services.
+        exclusions : jobs that are left to other services.
         """
         now = self._clock()
         # a lease that ends later than any can was made by a clock that has jumped since
         times = {"now": now, "latest": now + 2 * lease_s}
         with self._database.read() as connection:
-            candidates: list[str] = list(connection.scalars(_waiting(attempted), {"others": [*others], **times}))
+            candidates: list[str] = list(connection.scalars(_waiting(attempted), {"others": [*exclusions], **times}))
         for job in candidates:
             with self._database.write() as connection:
                 entry = rows.find(connection, job, lock=True)
@@ -125,7 +127,7 @@ class Leases:
             if entry is None or not entry.active:
                 return [False] * len(computed)
             now = self._clock()
-            successes = [_mark_done(connection, piece, now) for piece in computed]
+            successes = [_finish(connection, piece, now) for piece in computed]
             new = [piece for piece, counts in zip(computed, successes, strict=True) if counts]
             if new:
                 counts = {
@@ -325,7 +327,7 @@ def _next_spans(connection: Connection, job: Job) -> list[tuple[int, int, int]]:
     return spans
 
 
-def _mark_done(connection: Connection, computed: Computed, now: float) -> bool:
+def _finish(connection: Connection, computed: Computed, now: float) -> bool:
     """Whether a chunk was not done before."""
     condition = and_(_own(computed.chunk), chunks.c.stop == computed.chunk.stop, chunks.c.state != "done")
     about = {

@@ -16,7 +16,7 @@ from service.drawings.front import front as drawn_front
 from service.drawings.layout import Layout, layout_of
 from service.drawings.side import side as drawn_side
 from service.drawings.svg import Drawing, beside, shortened
-from service.report.chapters.balance import carried, shown, which
+from service.report.chapters.balance import best_set, best_set_label, carried
 from service.report.chapters.bearing_loci import loci
 from service.report.chapters.orders import order_hodographs
 from service.report.chapters.pins import pin_figure
@@ -77,9 +77,11 @@ def _layout(request: OptimizeRequest, answer: OptimizeAnswer) -> Layout:
 
 
 def _hodograph(number: int, request: OptimizeRequest, answer: OptimizeAnswer) -> Drawing:
-    left, built = shown(answer)[1], as_built(request, answer)
+    left, built = best_set(answer)[1], as_built(request, answer)
     filed = None if built is None else built.left
-    return hodographs(request.machine, answer.residual.before, left, answer.floor, which(answer), filed)[number]
+    return hodographs(request.machine, answer.residual.before, left, answer.floor, best_set_label(answer), filed)[
+        number
+    ]
 
 
 def _bearings(request: OptimizeRequest, answer: OptimizeAnswer) -> Drawing:

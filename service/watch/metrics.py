@@ -142,8 +142,8 @@ class _Sweeps(Collector):
         for state, (count, *_) in (totals or {}).items():
             jobs.add_metric([state], count)
         if totals is not None:
-            done, failed, invalid = (sum(counts[i] for counts in totals.values()) for i in (1, 2, 3))
-            rows.add_metric(["answered"], done - failed - invalid)
+            finished, failed, invalid = (sum(counts[i] for counts in totals.values()) for i in (1, 2, 3))
+            rows.add_metric(["answered"], finished - failed - invalid)
             rows.add_metric(["failed"], failed)
             rows.add_metric(["invalid"], invalid)
         yield jobs

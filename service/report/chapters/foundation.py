@@ -3,7 +3,7 @@
 from collections.abc import Iterator, Mapping, Sequence
 
 from schemas.answer.foundation import OrderOfFoundation
-from service.report.blocks import Block, Cell, Chapter, Number, Paragraph, Table, prose, settled, table
+from service.report.blocks import Block, Cell, Chapter, Number, Paragraph, Table, figure_beside, prose, table
 from service.tables.foundation import oscillation, sets
 
 #: a load below this share of the largest of its kind is told in a sentence, not in a line
@@ -70,6 +70,6 @@ def _cells(parts: Sequence[tuple[float, float] | None], scale: float) -> Iterato
         if part is None:
             yield from (None, None, None)
             continue
-        amplitude = settled(part[0], scale)
+        amplitude = figure_beside(part[0], scale)
         still = isinstance(amplitude, Number) and amplitude.text == "0"
-        yield from (amplitude, settled(part[0] / _KILO, scale / _KILO), None if still else part[1])
+        yield from (amplitude, figure_beside(part[0] / _KILO, scale / _KILO), None if still else part[1])

@@ -8,18 +8,18 @@ from service.drawings.front import front
 from service.drawings.layout import Layout, layout_of
 from service.drawings.side import side
 from service.report.blocks import Chapter, Figure
-from service.report.chapters.balance import as_made, carried, shown
+from service.report.chapters.balance import best_set, carried, workshop_blocks
 from service.tables.as_built import AsBuilt
 
 
 def layout(request: OptimizeRequest, answer: OptimizeAnswer, built: AsBuilt | None) -> Chapter:
     """The machine with its counterweights, drawn."""
-    fitted, _ = shown(answer)
+    fitted, _ = best_set(answer)
     plan = layout_of(request.machine, carried(answer), () if built is None else built.counterweights)
     return Chapter(
         "Layout",
         (
-            *(() if built is None else as_made(request.machine, fitted)),
+            *(() if built is None else workshop_blocks(request.machine, fitted)),
             Figure(
                 (front(plan),),
                 "Front view from +z at shaft angle 0, to scale: cranks black, axes of rows dash-dotted, "

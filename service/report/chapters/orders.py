@@ -5,7 +5,7 @@ from functools import partial
 
 from schemas.answer.first_order import ResidualOrders
 from schemas.answer.outputs import ForceOrder, MomentOrder, Order, OrdersComparison
-from service.report.blocks import Cell, Chapter, Figure, Paragraph, Table, settled, table
+from service.report.blocks import Cell, Chapter, Figure, Paragraph, Table, figure_beside, table
 from service.report.charts import COUPLE_AXES, FORCE_AXES, after, before, hodograph
 
 #: an order whose force and moment are below this share of the largest is neither listed nor drawn
@@ -104,8 +104,8 @@ def _row(name: str, was: Order | None, left: Order | None, scale: Order | None) 
     force, moment = (0.0, 0.0) if scale is None else (scale.force.peak_N, scale.moment.peak_Nm)
     return (
         name,
-        settled(None if was is None else was.force.peak_N, force),
-        settled(None if left is None else left.force.peak_N, force),
-        settled(None if was is None else was.moment.peak_Nm, moment),
-        settled(None if left is None else left.moment.peak_Nm, moment),
+        figure_beside(None if was is None else was.force.peak_N, force),
+        figure_beside(None if left is None else left.force.peak_N, force),
+        figure_beside(None if was is None else was.moment.peak_Nm, moment),
+        figure_beside(None if left is None else left.moment.peak_Nm, moment),
     )

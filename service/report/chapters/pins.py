@@ -18,7 +18,7 @@ _LINES = 18
 _MOST_PINS = 8
 
 
-def loaded(request: PinLoadsRequest, answer: PinLoadsAnswer) -> Iterator[Chapter]:
+def pins(request: PinLoadsRequest, answer: PinLoadsAnswer) -> Iterator[Chapter]:
     """The answer to a request about pins alone."""
     yield pin_loads(answer, request.pins or ())
 

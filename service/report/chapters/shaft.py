@@ -7,7 +7,7 @@ from schemas.request.shaft import ShaftRequest
 from service.report.blocks import Chapter, Paragraph, facts, table
 
 
-def shown(request: ShaftRequest, answer: ShaftAnswer) -> Iterator[Chapter]:
+def shaft(request: ShaftRequest, answer: ShaftAnswer) -> Iterator[Chapter]:
     """The answer to a request."""
     serious = sum(doubt.serious for doubt in answer.doubts)
     if serious:

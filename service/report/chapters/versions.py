@@ -15,7 +15,7 @@ from schemas.request.requests import AnalyzeRequest
 from service.common.figures import digits, typeset
 from service.common.validation import pointer
 from service.report.blocks import Block, Chapter, Paragraph, Table, table
-from service.report.chapters.balance import shown
+from service.report.chapters.balance import best_set
 from service.tables.whole_mass import whole_mass
 
 #: differences of a version that are listed; of more it is said how many there are
@@ -45,7 +45,7 @@ def compared(request: ReportRequest, answer: OptimizeAnswer) -> Iterator[Chapter
     if not request.versions:
         return
     columns = [
-        Column(_THIS, answer.status, shown(answer)[1], whole_mass(answer), every_counterweight(answer)),
+        Column(_THIS, answer.status, best_set(answer)[1], whole_mass(answer), every_counterweight(answer)),
         *(_column(request, place) for place in range(len(request.versions))),
     ]
     yield Chapter("Versions compared", (_figures(columns), _weights(columns), *_differences(request)))
@@ -64,7 +64,7 @@ def _column(request: ReportRequest, place: int) -> Column:
         raise MissingInput(
             FieldProblem(("versions", place, *path), message) for path, message in error.problems
         ) from None
-    return Column(version.name, result.status, shown(result)[1], whole_mass(result), every_counterweight(result))
+    return Column(version.name, result.status, best_set(result)[1], whole_mass(result), every_counterweight(result))
 
 
 def _figures(columns: Sequence[Column]) -> Table:
