@@ -171,9 +171,9 @@ def _range(rows: list[Row]) -> str:
     return " to ".join(dict.fromkeys(f"{time:.2g}" for time in (min(r.time for r in rows), max(r.time for r in rows))))
 
 
-def _times(rows: list[Row], others: list[Row]) -> str:
+def _times(rows: list[Row], references: list[Row]) -> str:
     """Ratios of times, example by example."""
-    ratios = [row.time / other.time for row, other in zip(rows, others, strict=True)]
+    ratios = [row.time / other.time for row, other in zip(rows, references, strict=True)]
     return " to ".join(
         dict.fromkeys(f"{ratio:.2g}" if ratio < 100 else f"{ratio:.0f}" for ratio in (min(ratios), max(ratios)))
     )

@@ -30,7 +30,7 @@ def imports() -> Imports:
             own = room(".".join(path.relative_to(ROOT).with_suffix("").parts))
             if own is not None and not own.endswith(".__init__"):
                 rooms.setdefault(own, set()).update(_imported(path) - {own})
-    return {name: frozenset(others & rooms.keys()) for name, others in rooms.items()}
+    return {name: frozenset(targets & rooms.keys()) for name, targets in rooms.items()}
 
 
 def _imported(path: Path) -> set[str]:
@@ -50,8 +50,8 @@ def _imported(path: Path) -> set[str]:
 def within(package: str, arrows: Imports) -> Imports:
     """The rooms of one package, and the imports between them."""
     return {
-        name: frozenset(target for target in others if target.startswith(f"{package}."))
-        for name, others in arrows.items()
+        name: frozenset(target for target in targets if target.startswith(f"{package}."))
+        for name, targets in arrows.items()
         if name.startswith(f"{package}.")
     }
 
@@ -66,7 +66,7 @@ def floors(arrows: Imports) -> dict[str, int]:
     """
     heights: dict[str, int] = {}
     while len(heights) < len(arrows):
-        ready = [name for name, others in arrows.items() if name not in heights and others <= heights.keys()]
+        ready = [name for name, targets in arrows.items() if name not in heights and targets <= heights.keys()]
         if not ready:
             raise ValueError(f"a circle of imports among {sorted(arrows.keys() - heights.keys())}")
         heights |= {name: 1 + max((heights[target] for target in arrows[name]), default=-1) for name in ready}
@@ -79,8 +79,8 @@ def reduced(arrows: Imports) -> Imports:
     for name in sorted(arrows, key=floors(arrows).__getitem__):
         reach[name] = arrows[name].union(*(reach[target] for target in arrows[name]))
     return {
-        name: frozenset(target for target in others if not any(target in reach[other] for other in others))
-        for name, others in arrows.items()
+        name: frozenset(target for target in targets if not any(target in reach[other] for other in targets))
+        for name, targets in arrows.items()
     }
 
 
@@ -126,7 +126,7 @@ def picture(arrows: Imports) -> str:
         left += wide + _MARGIN
     width, tall = left, height + 2 * _MARGIN
     lines = [_arrow(boxes[source], boxes[other]) for band in bands.values() for source, other in _pairs(reduced(band))]
-    drawn = [_box(name, boxes[name]) for name in sorted(boxes)]
+    shapes = [_box(name, boxes[name]) for name in sorted(boxes)]
     return "\n".join(
         [
             f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {width:.0f} {tall}"'
@@ -137,7 +137,7 @@ def picture(arrows: Imports) -> str:
             f'<rect width="{width:.0f}" height="{tall}" fill="#fff"/>',
             *below,
             *lines,
-            *drawn,
+            *shapes,
             "</svg>\n",
         ]
     )

@@ -73,8 +73,8 @@ def table() -> str:
         lines += [f"**{about}**", "", "| variable | default | meaning |", "|---|---|---|"]
         for name, field in fields.items():
             value = default(name, field)
-            shown = value if name in MACHINE_DEPENDENT or not value else f"`{value}`"
-            lines.append(f"| `{variable(name, field)}` | {shown} | {field.description} |")
+            cell = value if name in MACHINE_DEPENDENT or not value else f"`{value}`"
+            lines.append(f"| `{variable(name, field)}` | {cell} | {field.description} |")
         lines.append("")
     return "\n".join(lines)
 

@@ -113,7 +113,7 @@ def main() -> None:
     link_first()
     take_shortcuts()
     budgets()
-    processes = [get_context("fork").Process(target=_in_turn, args=some) for some in zip(_BEHIND, PARTS, strict=True)]
+    processes = [get_context("fork").Process(target=_in_turn, args=parts) for parts in zip(_BEHIND, PARTS, strict=True)]
     for process in processes:
         process.start()
     for process in processes:
@@ -134,8 +134,8 @@ def _in_turn(behind: int, parts: Sequence[Callable[[], object]]) -> None:
     gc.freeze()
 
 
-def _say(what: str) -> None:
-    sys.stdout.write(f"{what}\n")
+def _say(text: str) -> None:
+    sys.stdout.write(f"{text}\n")
     sys.stdout.flush()
 
 

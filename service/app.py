@@ -31,7 +31,7 @@ from service.http import faults as http_faults
 from service.http.computing import Computing
 from service.http.cut import Cut
 from service.http.direct import Direct
-from service.http.errors import ErrorAnswers, joined
+from service.http.errors import ErrorAnswers, union
 from service.http.methods import Methods
 from service.http.openapi import Documented
 from service.http.parameters import of_the_route
@@ -60,7 +60,7 @@ from service.workers.pool import Pool
 _RESOURCES = (sweeps, effects, examples, health, version_route, metrics_route, problems, portal)
 
 #: what is said about every exception, as the rooms declare it; the last one is the last resort
-FAULTS = joined(
+FAULTS = union(
     validation.FAULTS,
     document_faults.FAULTS,
     fairness_faults.FAULTS,
@@ -127,27 +127,27 @@ def create_app(settings: Settings | None = None, warm: bool = True, jobs: JobSer
         if the settings name an engine or a database that there is not, keys that cannot be read, or no keys on an
         address that other machines reach.
     """
-    chosen = settings or Settings()
-    desk = jobs or JobService(chosen)
-    table = shares(chosen)
+    options = settings or Settings()
+    desk = jobs or JobService(options)
+    table = shares(options)
     pool = Pool(
         table,
-        chosen.request_timeout_s,
-        chosen.solve_memory_mb,
-        chosen.data_dir,
+        options.request_timeout_s,
+        options.solve_memory_mb,
+        options.data_dir,
     )
     threads, rounds, errors = Threads(table["threads"]), FairScheduler(), ErrorAnswers(FAULTS)
     readiness = Readiness(
         {
             "database": partial(database, desk.counts),
-            "disk": partial(disk, chosen.data_dir, chosen.min_free_mb),
+            "disk": partial(disk, options.data_dir, options.min_free_mb),
             "workers": partial(workers, lambda: pool.pids),
         },
         threads,
         "warming" if warm else "ready",
     )
     metrics = Metrics(pool, desk.counts, desk.faults)
-    traces = tracing(chosen)
+    traces = tracing(options)
 
     def warm_up() -> None:
         pool.open()
@@ -178,23 +178,23 @@ def create_app(settings: Settings | None = None, warm: bool = True, jobs: JobSer
     app = Application(
         (
             Middleware(HeadAsGet),
-            *_behind_proxies(chosen),
-            Middleware(RequestLog, metrics, traces, template, chosen.log_machines),
+            *_behind_proxies(options),
+            Middleware(RequestLog, metrics, traces, template, options.log_machines),
             Middleware(Cut, errors),
-            Middleware(SecurityHeaders, chosen.hsts_s),
-            Middleware(Cors, chosen.cors_origins, **CORS),
+            Middleware(SecurityHeaders, options.hsts_s),
+            Middleware(Cors, options.cors_origins, **CORS),
             Middleware(Pacing, rounds),
             Middleware(
                 Access,
-                keys(chosen),
-                Hosts(chosen.allowed_hosts),
-                RateLimits(chosen),
+                keys(options),
+                Hosts(options.allowed_hosts),
+                RateLimits(options),
                 quotas(table),
                 errors.answer,
             ),
             Middleware(Direct, computations.endpoints(), errors),
         ),
-        keyed=chosen.keys_file is not None,
+        keyed=options.keys_file is not None,
         title="counterweight",
         contact={"name": "The Counterweight authors"},
         version=package_version(),
@@ -205,38 +205,38 @@ def create_app(settings: Settings | None = None, warm: bool = True, jobs: JobSer
         # the service traces by itself
         telemetry={"tracing": False, "metrics": False, "logs": False},
     )
-    app.state.frame_origins = chosen.frame_origins
+    app.state.frame_origins = options.frame_origins
     app.state.readiness = readiness
     app.state.desk = desk
-    app.state.sweep_workers = chosen.sweep_workers
+    app.state.sweep_workers = options.sweep_workers
     app.state.pool = pool
     app.state.threads = threads
     app.state.rounds = rounds
     app.state.looks = SingleFlight(rounds.turn)
     app.state.watch = Watch(desk.of())
     app.state.metrics = metrics
-    app.state.computing = Computing(chosen, readiness, pool, metrics, traces)
-    methods = _routes(app, chosen)
+    app.state.computing = Computing(options, readiness, pool, metrics, traces)
+    methods = _routes(app, options)
     errors.install(app, methods)
     return app
 
 
-def _routes(app: FastAPI, chosen: Settings) -> Methods:
+def _routes(app: FastAPI, settings: Settings) -> Methods:
     """All routes into the application, and the methods at their paths."""
     routers = [computations.router(), *(resource.router for resource in _RESOURCES)]
     for router in routers:
         app.include_router(router)
     reference_page.install(app)
-    guide.install(app, chosen.guide_dir)
+    guide.install(app, settings.guide_dir)
     return Methods(route for router in [app, *routers] for route in router.routes)
 
 
-def _behind_proxies(chosen: Settings) -> Sequence[Middleware]:
+def _behind_proxies(settings: Settings) -> Sequence[Middleware]:
     """What believes proxies, where there are any."""
-    if not chosen.trusted_proxies:
+    if not settings.trusted_proxies:
         return ()
-    proxies = Middleware(ProxyHeadersMiddleware, list(chosen.trusted_proxies))
-    return Middleware(Users, chosen.owner_header, chosen.trusted_proxies), proxies
+    proxies = Middleware(ProxyHeadersMiddleware, list(settings.trusted_proxies))
+    return Middleware(Users, settings.owner_header, settings.trusted_proxies), proxies
 
 
 class Application(Documented):

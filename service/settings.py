@@ -243,14 +243,14 @@ def unknown_variables(environment: Mapping[str, str]) -> Iterator[str]:
 def wrong_values(error: ValidationError, options: Mapping[str, object]) -> Iterator[str]:
     """A sentence for every setting with a wrong value, by its option or by its environment variable."""
     # as the operator has written them: names are read in small letters too
-    written = {name.upper(): name for name in os.environ}
+    variables = {name.upper(): name for name in os.environ}
     for detail in error.errors():
         place = str(detail["loc"][0]) if detail["loc"] else ""
         field = place.removeprefix(_PREFIX).lower()
         option = field in options or place in options
         # the port has a second variable, without the prefix
         name = variable(field)
-        if field == "port" and name not in written:
+        if field == "port" and name not in variables:
             name = "PORT"
-        name = f"--{field}" if option else written.get(name, name)
+        name = f"--{field}" if option else variables.get(name, name)
         yield f"{name}: {detail['msg']}"

@@ -35,7 +35,7 @@ _IMPORTED = re.compile(r"^from (verify_\w+) import", re.MULTILINE)
 @cache
 def checker() -> ModuleType:
     """The file for answers of every kind; none of them belongs to a package or imports anything of this one."""
-    return {name: _loaded(name) for name in _files()}["verify"]
+    return {name: _module(name) for name in _files()}["verify"]
 
 
 def _files() -> Iterable[str]:
@@ -44,7 +44,7 @@ def _files() -> Iterable[str]:
     return TopologicalSorter({path.stem: _IMPORTED.findall(path.read_text("utf-8")) for path in paths}).static_order()
 
 
-def _loaded(name: str) -> ModuleType:
+def _module(name: str) -> ModuleType:
     spec = spec_from_file_location(name, directory() / "client" / f"{name}.py")
     assert spec is not None
     assert spec.loader is not None

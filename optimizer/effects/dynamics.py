@@ -237,9 +237,11 @@ def _flywheel(context: Context) -> FlywheelFigures:
     assert data is not None  # checked by the problems
     # delta = dE / (J omega^2), the design calculation of the 2D12 (2-28)
     ratio = context.results["torque_integrals"].fluctuation / context.layout.omega**2
-    held = data.irregularity is not None
-    stated = np.broadcast_to(np.asarray(data.irregularity if held else data.inertia_kg_m2, dtype=float), ratio.shape)
-    return FlywheelFigures(stated, ratio / stated) if held else FlywheelFigures(ratio / stated, stated)
+    is_stated = data.irregularity is not None
+    stated = np.broadcast_to(
+        np.asarray(data.irregularity if is_stated else data.inertia_kg_m2, dtype=float), ratio.shape
+    )
+    return FlywheelFigures(stated, ratio / stated) if is_stated else FlywheelFigures(ratio / stated, stated)
 
 
 def _shaft_loads(context: Context) -> tuple[Real, Complex]:
@@ -260,7 +262,7 @@ def _whole_turn(context: Context) -> WholeTurn:
     closed = _row_work(context)
     means = None if closed is None else closed.of_a_turn / (TURN * context.layout.reciprocating.crank_radius)
     # of the loads of bearings mean squares are shown, by quadratures
-    squared, single = "shaft_loads" in context.wanted, not context.layout.omega.shape
+    squared, single = "shaft_loads" in context.demands, not context.layout.omega.shape
     return whole_turn(rows, _breaks(context), means, squared, context.readings, single)
 
 

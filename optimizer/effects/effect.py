@@ -22,7 +22,7 @@ class Context:
     fidelity: Fidelity
     angle: Real  # (T,) shaft angles, or (..., T) others for each machine, rad
     results: Mapping[str, Any]
-    wanted: Collection[str] = ()  # effects whose results are read once all have run
+    demands: Collection[str] = ()  # effects whose results are read once all have run
     readings: tuple[Reading, ...] = ()  # of the forces of many designs over the turn, that columns will need
 
 

@@ -38,14 +38,14 @@ def harmonic(fidelity: Fidelity) -> Callable[[int, Real], Real]:
 
 def second_order(layout: Layout, fidelity: Fidelity) -> Wrench:
     """Second order of the reciprocating masses over omega^2, of rows that have rods."""
-    both = _first_two(layout) if fidelity.kinematics == "exact" else None
-    return reciprocating(layout, 2, harmonic(fidelity)) if both is None else both[1]
+    orders = _first_two(layout) if fidelity.kinematics == "exact" else None
+    return reciprocating(layout, 2, harmonic(fidelity)) if orders is None else orders[1]
 
 
 def _first_order(context: Context) -> Wrench:
     """The first order: of one machine with rods together with the second, which an answer shows beside it."""
-    both = _first_two(context.layout) if context.fidelity.kinematics == "exact" else None
-    return reciprocating(context.layout, 1) if both is None else both[0]
+    orders = _first_two(context.layout) if context.fidelity.kinematics == "exact" else None
+    return reciprocating(context.layout, 1) if orders is None else orders[0]
 
 
 def _higher_orders(context: Context) -> dict[int, Wrench]:

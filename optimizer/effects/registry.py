@@ -48,11 +48,11 @@ def effects_of(needs: Sequence[str]) -> tuple[str, ...]:
 
 @lru_cache(maxsize=256)
 def _effects_of(needs: tuple[str, ...]) -> tuple[str, ...]:
-    wanted = set(needs)
+    names = set(needs)
     for name in reversed(EFFECTS):
-        if name in wanted:
-            wanted.update(EFFECTS[name].needs)
-    return tuple(name for name in EFFECTS if name in wanted)
+        if name in names:
+            names.update(EFFECTS[name].needs)
+    return tuple(name for name in EFFECTS if name in names)
 
 
 @remembered
@@ -161,8 +161,8 @@ class Simulated:
 
     def _need(self, names: Sequence[str], purpose: str) -> None:
         for name in names:
-            others = self.needed_by.get(name, ())
-            self.needed_by[name] = others if purpose in others else (*others, purpose)
+            purposes = self.needed_by.get(name, ())
+            self.needed_by[name] = purposes if purpose in purposes else (*purposes, purpose)
 
 
 def simulate(
@@ -185,10 +185,10 @@ def simulate(
     readings : of the forces of many designs over the turn, that columns will need.
     """
     samples = np.zeros(0) if angle is None else angle
-    wanted = tuple(need for needs in demands.values() for need in needs)
-    figures, times = _run(machine, layout, wanted, fidelity, samples, results, readings)
+    effects = tuple(need for needs in demands.values() for need in needs)
+    figures, times = _run(machine, layout, effects, fidelity, samples, results, readings)
     purposes = tuple((purpose, tuple(needs)) for purpose, needs in demands.items())
-    users = _users(purposes, absent_effects(machine, wanted))
+    users = _users(purposes, absent_effects(machine, effects))
     return Simulated(machine, layout, fidelity, figures, times, users.copy())
 
 
@@ -222,14 +222,14 @@ def _run(
     """
     figures: dict[str, Any] = {}
     times: dict[str, float] = {}
-    for name, done in _plan(tuple(closure(machine, needs)), tuple(needs)):
+    for name, releases in _plan(tuple(closure(machine, needs)), tuple(needs)):
         effect, start = EFFECTS[name], time.perf_counter()
         # an effect sees the results of those that it declares, and no others
         visible = {need: figures[need] for need in effect.needs if need in figures} if effect.needs else {}
         context = Context(machine, layout, fidelity, angle, visible, needs, readings)
         figures[name] = results[name] if name in results else effect.simulate(context)
         times[name] = (time.perf_counter() - start) * 1e3
-        for need in done:
+        for need in releases:
             # what does not apply was never there
             figures.pop(need, None)
     return figures, times

@@ -180,7 +180,7 @@ def _shapes(machine: Machine, mass_kg: Real) -> dict[int, Shape]:
     if cut is None:
         return {}
     radius = np.array([machine.webs[k].radius_m for k in cut.webs])
-    half_angle = cut.opened_by_both(mass_kg[cut.webs], radius)
+    half_angle = cut.opened_by_mass(mass_kg[cut.webs], radius)
     figures = (np.rad2deg(half_angle), cut.chord(half_angle), cut.outer, cut.inertia(half_angle))
     return {
         k: Shape(

@@ -57,11 +57,11 @@ def on_webs(request: AnalyzeRequest) -> AnalyzeRequest:
 
 def _names(request: AnalyzeRequest) -> Iterator[str]:
     """Names of planes, none of them that of a web."""
-    taken = {web.name for web in request.machine.every_web}
+    names = {web.name for web in request.machine.every_web}
     for number, counterweight in enumerate(request.counterweights, 1):
         if counterweight.web is None:
             name = f"counterweight {number}"
-            while name in taken:
+            while name in names:
                 name += "'"
-            taken.add(name)
+            names.add(name)
             yield name

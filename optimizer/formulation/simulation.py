@@ -176,8 +176,8 @@ class Prepared:
         """Loads of the B main bearings and bending moments at the S corners, over omega^2: B + S curves together."""
         places, reaction = bearing_places(self.machine), self.bearing_influence
         moments = bending_influence(self.layout, places, reaction, self.stations)
-        both = np.concatenate([reaction, moments], axis=-2)
-        return shaft_curves(self.results["whole_turn"], self.layout, both)
+        influence = np.concatenate([reaction, moments], axis=-2)
+        return shaft_curves(self.results["whole_turn"], self.layout, influence)
 
     @cached_property
     def roll(self) -> TurnResponse:

@@ -7,7 +7,7 @@ from functools import lru_cache
 import numpy as np
 
 from optimizer.numerics.arrays import Complex, Real
-from optimizer.numerics.memoization import remembered_of_both
+from optimizer.numerics.memoization import remembered_of_pair
 
 _QUADRANTS = np.array([1, 1j, -1, -1j])
 _QUADRANT: tuple[complex, ...] = (1.0 + 0.0j, 1.0j, -1.0 + 0.0j, -1.0j)
@@ -66,8 +66,8 @@ def _vector(angle_deg: float) -> complex:
     return vector * _QUADRANT[quarters % 4]
 
 
-@remembered_of_both
-def turned(sense: Real, angle_rad: Real) -> Complex:
+@remembered_of_pair
+def shaft_vectors(sense: Real, angle_rad: Real) -> Complex:
     """Unit vectors e^{j s angle} of shafts that have turned through an angle; designs share what they have in common.
 
     Of the same shafts and samples they are made once; nobody writes to them.

@@ -30,8 +30,8 @@ def web_shares(throw: Real, web: Real, own: Real | None = None) -> Real:
     shares: Real = near / np.add.reduce(near, axis=-2, keepdims=True)
     if own is None:
         return shares
-    named = own[..., None, :] == np.arange(throw.shape[-1])[:, None]
-    return np.where(np.isnan(own)[..., None, :], shares, named)
+    own_shares = own[..., None, :] == np.arange(throw.shape[-1])[:, None]
+    return np.where(np.isnan(own)[..., None, :], shares, own_shares)
 
 
 def balance_rates(rotating: Complex, shares: Real, unbalance: Complex) -> Complex:
@@ -53,6 +53,6 @@ def balance_rates(rotating: Complex, shares: Real, unbalance: Complex) -> Comple
 
 def customary(rotating: Complex, shares: Real) -> Complex:
     """Counterweights (..., webs) kg m that balance the rotating unbalance of every throw, alike on each of its webs."""
-    held = np.add.reduce(shares, axis=-1, keepdims=True)
-    of_webs = shares / np.where(held > 0.0, held, 1.0)
+    sums = np.add.reduce(shares, axis=-1, keepdims=True)
+    of_webs = shares / np.where(sums > 0.0, sums, 1.0)
     return -np.add.reduce(of_webs * rotating[..., None], axis=-2)

@@ -229,10 +229,10 @@ def _levers(spans: _Spans) -> Real:
 def _at_bearings(left: Real, right: Real) -> Real:
     """What the spans (..., B-1, L) put on their left and right bearings, summed at each bearing: (..., B, L)."""
     *leading, count, loads = left.shape
-    both = np.zeros((*leading, count + 1, loads))
-    both[..., :-1, :] = left
-    both[..., 1:, :] += right
-    return both
+    result = np.zeros((*leading, count + 1, loads))
+    result[..., :-1, :] = left
+    result[..., 1:, :] += right
+    return result
 
 
 def _support_moments(spans: _Spans) -> Real:

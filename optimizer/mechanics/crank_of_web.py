@@ -43,10 +43,10 @@ def _places(machine: ReciprocatingMachine) -> tuple[tuple[Any, ...], tuple[Any, 
     )
 
 
-def _shares(throws: Sequence[Any], webs: Sequence[Any], named: Sequence[Any]) -> Real:
-    if not any(throw is not None for throw in named):
+def _shares(throws: Sequence[Any], webs: Sequence[Any], stated_throws: Sequence[Any]) -> Real:
+    if not any(throw is not None for throw in stated_throws):
         return web_shares(stacked(throws), stacked(webs))
-    own = stacked([np.nan if throw is None else throw for throw in named])
+    own = stacked([np.nan if throw is None else throw for throw in stated_throws])
     return web_shares(stacked(throws), stacked(webs), own)
 
 
@@ -59,8 +59,8 @@ class _Cranks(NamedTuple):
 
 # of a machine that is asked about again and again; of few, for large ones are a third of a megabyte
 @lru_cache(maxsize=16)
-def _of_places(throws: tuple[float, ...], webs: tuple[float, ...], named: tuple[int | None, ...]) -> _Cranks:
-    fractions, own = _shares(throws, webs, named), dict[int, int]()
+def _of_places(throws: tuple[float, ...], webs: tuple[float, ...], stated_throws: tuple[int | None, ...]) -> _Cranks:
+    fractions, own = _shares(throws, webs, stated_throws), dict[int, int]()
     for throw, web in zip(*map(np.ndarray.tolist, (fractions == 1.0).nonzero()), strict=True):
         own[web] = throw
     fractions.flags.writeable = False

@@ -54,14 +54,14 @@ class CurveSeries:
         entry = turn_kernel()
         series, nothing = points or bounds, repeat((entry.NOTHING, None))
         assert series is not None  # one of both is given
-        rows, turned = series.rows, entry.NO_KINDS if series.kinds is None else series.kinds.places
-        functions = (nothing if series is None else series.functions(self._pressed) for series in (points, bounds))
+        rows, kinds = series.rows, entry.NO_KINDS if series.kinds is None else series.kinds.places
+        functions = (nothing if series is None else series.functions(self._has_gas) for series in (points, bounds))
         results, order = [], -1 if bounds is None else bounds.order
-        for (at, place), (over, other) in zip(*functions, strict=False):
-            wide = compact(half[:, place or other])
-            reading = entry.Reading(self._every, np.arange(len(wide)), wide, order, wide.shape[1], turned)
-            made = entry.over_turn(entry.SUMS, rows, self.sums, reading=reading, points=at, bounds=over)
-            results.append(made[1:])
+        for (at, place), (over, there) in zip(*functions, strict=False):
+            wide = compact(half[:, place or there])
+            reading = entry.Reading(self._every, np.arange(len(wide)), wide, order, wide.shape[1], kinds)
+            outcome = entry.over_turn(entry.SUMS, rows, self.sums, reading=reading, points=at, bounds=over)
+            results.append(outcome[1:])
         if len(results) == 1:
             return results[0]
         cubic, rest, size = zip(*results, strict=True)
@@ -71,8 +71,8 @@ class CurveSeries:
         """The same of curves of one reading, of the forces of the rows that are made already, bounded to an order."""
         entry = turn_kernel()
         reading = entry.Reading(self._every, np.arange(len(half)), compact(half), order, half.shape[1])
-        made = entry.over_turn(entry.FORCE_SUMS, self.rows.packed, self.sums, reading=reading, points=forces)
-        cubic, rest, size = made[1:]
+        outcome = entry.over_turn(entry.FORCE_SUMS, self.rows.kernel_rows, self.sums, reading=reading, points=forces)
+        cubic, rest, size = outcome[1:]
         return cubic, rest, size
 
     @cached_property
@@ -88,8 +88,8 @@ class CurveSeries:
         """Peaks of the curves, or of one of them in motion, from their pieces, and the curves there, at rest."""
         entry = turn_kernel()
         moving = entry.STILL if motion is None else motion
-        sought = entry.Sought(cubics, members, best, entry.NO_LEVELS, self._within, moving)
-        _, values, _, _ = entry.over_turn(entry.PEAKS, self.rows.packed, self.sums, sought=sought)
+        query = entry.Query(cubics, members, best, entry.NO_LEVELS, self._within, moving)
+        _, values, _, _ = entry.over_turn(entry.PEAKS, self.rows.kernel_rows, self.sums, query=query)
         there: Complex = values[:, 0, 0]
         return there
 
@@ -99,8 +99,8 @@ class CurveSeries:
 
         entry = turn_kernel()
         moving = entry.STILL if motion is None else motion
-        sought = entry.Sought(cubics, members, entry.NO_BEST, entry.NO_LEVELS, self._within, moving)
-        _, vectors, numbers, _ = entry.over_turn(entry.CIRCLES, self.rows.packed, self.sums, sought=sought)
+        query = entry.Query(cubics, members, entry.NO_BEST, entry.NO_LEVELS, self._within, moving)
+        _, vectors, numbers, _ = entry.over_turn(entry.CIRCLES, self.rows.kernel_rows, self.sums, query=query)
         return Floors(
             vectors[:, 0, 0],
             numbers[:, RADIUS],
@@ -114,8 +114,8 @@ class CurveSeries:
     def crossings(self, cubics: "Cubics", level: Real) -> tuple[Real, Real]:
         """Angles at which the curves cross levels (J,), and what their integrals may be off by, from their pieces."""
         entry = turn_kernel()
-        sought = entry.Sought(cubics, entry.NO_MEMBERS, entry.NO_BEST, level, self._within, entry.STILL)
-        _, _, angle, error = entry.over_turn(entry.CROSSINGS, self.rows.packed, self.sums, sought=sought)
+        query = entry.Query(cubics, entry.NO_MEMBERS, entry.NO_BEST, level, self._within, entry.STILL)
+        _, _, angle, error = entry.over_turn(entry.CROSSINGS, self.rows.kernel_rows, self.sums, query=query)
         return angle, error
 
     def _places(self, curve: Index, piece: Index) -> tuple[Index, Index, Real]:
@@ -140,12 +140,14 @@ class CurveSeries:
         wide = np.empty((curve.size, 1))
         wide.fill(1.0)
         reading = entry.Reading(curve, design, wide, -1, 1)
-        _, vectors, *_ = entry.over_turn(entry.BOTH, self.rows.packed, self.sums, places, order, self._pressed, reading)
+        _, vectors, *_ = entry.over_turn(
+            entry.BOTH, self.rows.kernel_rows, self.sums, places, order, self._has_gas, reading
+        )
         coefficients: Complex = vectors[:, 0]
         return coefficients
 
     @cached_property
-    def _pressed(self) -> bool:
+    def _has_gas(self) -> bool:
         """Whether gas is a part of any."""
         without_gas = _readings().WITHOUT_GAS
         return any(reading not in without_gas for reading in self.readings)

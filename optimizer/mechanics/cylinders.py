@@ -224,7 +224,7 @@ def _state(cylinder: Cylinder, side: str) -> tuple[float | None, ...]:
     own = getattr(cylinder, side)
     if own is None:
         return common
-    return tuple(both if alone is None else alone for alone, both in zip(_IN_ORDER(own), common, strict=True))
+    return tuple(default if alone is None else alone for alone, default in zip(_IN_ORDER(own), common, strict=True))
 
 
 def _areas(cylinder: Cylinder) -> tuple[float | None, float | None]:

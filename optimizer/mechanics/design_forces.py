@@ -41,22 +41,22 @@ class DesignForces:
         return self._memo[reading]
 
     def _make(self, readings: set[Reading]) -> None:
-        from optimizer.mechanics.kernel.entry import FORCES, NO_READING, NOTHING_SOUGHT, over_turn
+        from optimizer.mechanics.kernel.entry import FORCES, NO_QUERY, NO_READING, over_turn
         from optimizer.mechanics.kernel.readings import ON_FRAME, ON_SHAFT, READINGS, WITHOUT_GAS
         from optimizer.mechanics.kernel.rows import Functions
 
-        wanted, half = np.array([name in readings for name in READINGS], np.int64), compact(self.half)
-        made = over_turn(
+        mask, half = np.array([name in readings for name in READINGS], np.int64), compact(self.half)
+        outcome = over_turn(
             FORCES,
-            self.rows.packed,
+            self.rows.kernel_rows,
             order=ORDER,
-            pressed=not readings.issubset(WITHOUT_GAS),
-            reading=NO_READING._replace(curve=wanted, half=half),
-            sought=NOTHING_SOUGHT._replace(middle=compact(self.centre)),
+            with_gas=not readings.issubset(WITHOUT_GAS),
+            reading=NO_READING._replace(curve=mask, half=half),
+            query=NO_QUERY._replace(middle=compact(self.centre)),
         )[0]
-        points, bounds, radius = made
+        points, bounds, radius = outcome
         part = 0
-        for k, number in enumerate(np.flatnonzero(wanted).tolist()):
+        for k, number in enumerate(np.flatnonzero(mask).tolist()):
             own = slice(part, part + (2 if number in (ON_SHAFT, ON_FRAME) else 1))
             of_rows = slice(k * len(radius) // len(readings), (k + 1) * len(radius) // len(readings))
             self._memo[READINGS[number]] = Functions(points[own], bounds[own], radius[of_rows])

@@ -118,17 +118,17 @@ class Segment(Plate):
     """
 
     def unbalance(self, half_angle: Reals) -> Real:
-        return 2.0 / 3.0 * self.areal * self._of_both(half_angle, 3, lambda b: np.sin(b) ** 3)
+        return 2.0 / 3.0 * self.areal * self._of_discs(half_angle, 3, lambda b: np.sin(b) ** 3)
 
     def mass(self, half_angle: Reals) -> Real:
-        return self.areal * self._of_both(half_angle, 2, lambda b: 0.5 * _excess(2.0 * b))
+        return self.areal * self._of_discs(half_angle, 2, lambda b: 0.5 * _excess(2.0 * b))
 
     def lever(self, half_angle: Reals) -> Real:
         return self.outer * np.cos(half_angle)
 
     def inertia(self, half_angle: Reals) -> Real:
         # b/2 - s c^3 / 2 - s^3 c / 6 = (b - s c) / 2 + s^3 c / 3
-        return self.areal * self._of_both(
+        return self.areal * self._of_discs(
             half_angle, 4, lambda b: 0.25 * _excess(2.0 * b) + np.sin(b) ** 3 * np.cos(b) / 3.0
         )
 
@@ -137,8 +137,8 @@ class Segment(Plate):
         cube = np.asarray(unbalance / (2.0 / 3.0 * self.areal))
         apart = (self.outer - self.inner) * (self.outer + self.inner)
         size = np.maximum(cube / apart**1.5, 1.0)
-        both = np.sqrt(apart) * _sum_of_halves(size)
-        half = np.where(size > 1.0, 0.5 * (both + apart / both), np.cbrt(cube))
+        total = np.sqrt(apart) * _sum_of_halves(size)
+        half = np.where(size > 1.0, 0.5 * (total + apart / total), np.cbrt(cube))
         result = np.minimum(np.arcsin(np.minimum(half / self.outer, 1.0)), self.most)
         # at a right angle an opening is no better known than to 1e-8, but a full plate is full
         return np.where(unbalance >= self.unbalance(self.most), self.most, result)
@@ -146,7 +146,7 @@ class Segment(Plate):
     def chord(self, half_angle: Reals) -> Real:
         return self.lever(half_angle)
 
-    def _of_both(self, half_angle: Reals, power: int, of_disc: "_OfAngle") -> Real:
+    def _of_discs(self, half_angle: Reals, power: int, of_disc: "_OfAngle") -> Real:
         """R2^n f(a) - R1^n f(b), b the half-angle at the inner radius."""
         inside = np.arccos(np.minimum(self._wider * np.cos(half_angle), 1.0))
         return self.outer**power * of_disc(np.asarray(half_angle)) - self.inner**power * of_disc(inside)

@@ -43,13 +43,13 @@ def beside(machine: Machine, mass_kg: Real, angle_deg: Real) -> tuple[Real, Real
     """
     if not any_fixed(machine):
         return mass_kg, angle_deg
-    which = fixed_webs(machine)
-    behind = mass_kg.shape[-1] - which.size
+    mask = fixed_webs(machine)
+    behind = mass_kg.shape[-1] - mask.size
     angles = np.mod(stacked([0.0 if web.fixed is None else web.fixed.angle_deg for web in machine.webs]), 360.0)
     masses, at = (
         np.pad(array, [(0, 0)] * (array.ndim - 1) + [(0, behind)]) for array in (fixed_masses(machine), angles)
     )
-    there = np.pad(which, (0, behind))
+    there = np.pad(mask, (0, behind))
     # without a mass there is no angle
     return np.where(there, masses, mass_kg), np.where(there, np.where(masses > 0, at, 0.0), angle_deg)
 

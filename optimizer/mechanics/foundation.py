@@ -55,11 +55,11 @@ def foundation_load(
 
 def _oscillation(phasor: Complex, order: int | Index, sense: Real, dead_centre_deg: Real, least: Real) -> Oscillation:
     size = np.abs(phasor)
-    some = size > least
-    turned = -sense * np.rad2deg(np.arctan2(phasor.imag, phasor.real)) - order * np.asarray(dead_centre_deg)
+    mask = size > least
+    angle = -sense * np.rad2deg(np.arctan2(phasor.imag, phasor.real)) - order * np.asarray(dead_centre_deg)
     # twice, because a hair below 0 comes to 360
-    phase = np.mod(np.mod(turned, 360.0), 360.0)
-    return Oscillation(np.where(some, size, 0.0), np.where(some, phase, 0.0))
+    phase = np.mod(np.mod(angle, 360.0), 360.0)
+    return Oscillation(np.where(mask, size, 0.0), np.where(mask, phase, 0.0))
 
 
 def rounding(layout: Layout, unbalance: Complex) -> tuple[Real, Real]:

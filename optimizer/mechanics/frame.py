@@ -70,7 +70,9 @@ def first_order(name: str, unit: str, shares: Shares, force: Response, moment: R
     )
 
 
-def shaking(turn: WholeTurn, layout: Layout, named: Mapping[str, tuple[str, Shares]]) -> tuple[TurnResponse, ...]:
+def shaking(
+    turn: WholeTurn, layout: Layout, shares_by_name: Mapping[str, tuple[str, Shares]]
+) -> tuple[TurnResponse, ...]:
     """Responses of all orders on the frame, seen from the shaft, which leaves their size alone.
 
     Gas and friction are internal forces and no part of them.
@@ -78,9 +80,9 @@ def shaking(turn: WholeTurn, layout: Layout, named: Mapping[str, tuple[str, Shar
     Parameters
     ----------
     turn, layout : of one machine.
-    named : unit and shares by name.
+    shares_by_name : unit and shares by name.
     """
-    return tuple(_of_all_orders(turn, layout, name, unit, shares) for name, (unit, shares) in named.items())
+    return tuple(_of_all_orders(turn, layout, name, unit, shares) for name, (unit, shares) in shares_by_name.items())
 
 
 def _of_all_orders(turn: WholeTurn, layout: Layout, name: str, unit: str, shares: Shares) -> TurnResponse:
@@ -89,8 +91,8 @@ def _of_all_orders(turn: WholeTurn, layout: Layout, name: str, unit: str, shares
             return np.ones_like(arm)
         return arm if shares is MOMENT else shares.force + shares.moment * arm
 
-    added = per_unit(planes(layout) - layout.reference_plane)
-    (own,) = shaft_curves(turn, layout, added[None], "on_frame").responses([name], unit)
+    influence = per_unit(planes(layout) - layout.reference_plane)
+    (own,) = shaft_curves(turn, layout, influence[None], "on_frame").responses([name], unit)
     if layout.balance is None:
         return own
     return with_balance_shafts(layout, own, per_unit(layout.balance.position - layout.reference_plane))

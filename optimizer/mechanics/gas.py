@@ -19,7 +19,7 @@ from optimizer.mechanics.kinematics import Motion, motion_kernel, row_table
 from optimizer.mechanics.layout import Layout
 from optimizer.mechanics.layout import spread as spread_layout
 from optimizer.numerics.arrays import Real, in_order, mapped, spread
-from optimizer.numerics.memoization import cached_property, remembered, remembered_of_both
+from optimizer.numerics.memoization import cached_property, remembered, remembered_of_pair
 from optimizer.numerics.records import record
 
 
@@ -130,7 +130,7 @@ def switching_travels(chambers: Chambers, layout: Layout) -> tuple[Real, Real]:
     return values[kernel.SUCTION], values[kernel.DISCHARGE]
 
 
-@remembered_of_both
+@remembered_of_pair
 def cycle_values(chambers: Chambers, layout: Layout) -> Real:
     """What the chambers come to whatever the samples, as :func:`chamber_values` has it, (7, ..., rows, C)."""
     kernel = _kernel()

@@ -12,7 +12,7 @@ import numpy as np
 from optimizer.mechanics.layout import Layout
 from optimizer.mechanics.slider_crank import acceleration_harmonic
 from optimizer.numerics.arrays import Complex, Real, any_true, spread, total
-from optimizer.numerics.memoization import remembered, remembered_of_both
+from optimizer.numerics.memoization import remembered, remembered_of_pair
 from optimizer.numerics.sums import force_and_couple
 from optimizer.responses.response import Phasors, Response
 
@@ -109,9 +109,9 @@ def _row_forces(layout: Layout, orders: Sequence[int], harmonic: Callable[[int, 
             np.multiply(size, crank, out=co)
             np.multiply(np.conj(co), axis**2, out=counter)
             continue
-        turned = size * harmonic(order, rows.rod_ratio) * crank**order
-        np.multiply(np.conj(turned), axis ** (order + 1), out=counter)
-        np.multiply(turned, opposed if order == 2 else opposed ** (order - 1), out=co)
+        vector = size * harmonic(order, rows.rod_ratio) * crank**order
+        np.multiply(np.conj(vector), axis ** (order + 1), out=counter)
+        np.multiply(vector, opposed if order == 2 else opposed ** (order - 1), out=co)
     return every
 
 
@@ -122,7 +122,7 @@ def _row_constants(layout: Layout) -> tuple[Real, Complex]:
     return 0.5 * rows.mass * rows.crank_radius, np.conj(rows.axis)
 
 
-@remembered_of_both
+@remembered_of_pair
 def counterweights(layout: Layout, unbalance: Complex) -> Wrench:
     """First-order force of counterweights: co-rotating only.
 

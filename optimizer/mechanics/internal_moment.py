@@ -59,11 +59,11 @@ def _largest_of_few(arms: list[float], co: list[complex], counter: list[complex]
     """The same as :func:`_largest` of one machine (n,), in plain numbers: in a quarter of the time."""
     largest = 0.0
     for step in (1, -1):
-        force = couple = other_force = other_couple = 0j
+        force = couple = counter_force = counter_couple = 0j
         for arm, turning, against in zip(arms[::step], co[::step], counter[::step], strict=True):
-            force, other_force = force + turning, other_force + against
-            couple, other_couple = couple + arm * turning, other_couple + arm * against
-            largest = max(largest, abs(arm * force - couple) + abs(arm * other_force - other_couple))
+            force, counter_force = force + turning, counter_force + against
+            couple, counter_couple = couple + arm * turning, counter_couple + arm * against
+            largest = max(largest, abs(arm * force - couple) + abs(arm * counter_force - counter_couple))
     return largest
 
 

@@ -180,8 +180,10 @@ def quotient(numerator: Any, denominator: Any) -> tuple[Any, Any]:
     value = numerator / denominator
     # exact product (Dekker 1971), so that the remainder is exact
     product = value * denominator
-    (high, low), (other_high, other_low) = _halves(value), _halves(denominator)
-    error = ((high * other_high - product) + high * other_low + low * other_high) + low * other_low
+    (high, low), (denominator_high, denominator_low) = _halves(value), _halves(denominator)
+    error = (
+        (high * denominator_high - product) + high * denominator_low + low * denominator_high
+    ) + low * denominator_low
     return value, ((numerator - product) - error) / denominator
 
 

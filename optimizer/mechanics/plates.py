@@ -64,7 +64,7 @@ class Plates:
         """Half-angles of the counterweights of masses, rad; the largest for more than a plate holds."""
         return self._by_part(opened_for, mass)
 
-    def opened_by_both(self, mass: Real, radius: Real) -> Real:
+    def opened_by_mass(self, mass: Real, radius: Real) -> Real:
         """The same of masses at their radii: near a right angle an unbalance says no more than 1e-8 of an opening."""
         half_angle = self.opened(mass * radius)
         steep = half_angle > _STEEP

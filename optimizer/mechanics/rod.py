@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from optimizer.mechanics.angles import turned
+from optimizer.mechanics.angles import shaft_vectors
 from optimizer.mechanics.kinematics import Motion
 from optimizer.mechanics.layout import Layout
 from optimizer.numerics.arrays import Complex, Real
@@ -76,6 +76,6 @@ def shaft_loads(piston_force: Real, motion: Motion, layout: Layout, shaft_angle:
     rows, masses, sense = layout.reciprocating, layout.rotating, layout.sense[..., None, None]
     pulled = piston_force * rows.axis[..., None] * (1.0 - 1j * sense * motion.rod_angle_tangent)
     outward = masses.mass * masses.radius * masses.direction * layout.omega[..., None] ** 2
-    whirling = outward[..., None] * turned(layout.sense, shaft_angle)[..., None, :]
+    whirling = outward[..., None] * shaft_vectors(layout.sense, shaft_angle)[..., None, :]
     planes = np.concatenate([rows.position, masses.position], axis=-1)
     return planes, np.concatenate([pulled, whirling], axis=-2)

@@ -37,10 +37,10 @@ def rolls(turn: WholeTurn, layout: Layout) -> list[TurnResponse]:
     if shafts is not None:
         influence = side_by_side(own, -1j * np.conj(shafts.x + 1j * shafts.y) * shafts.ratio**2)
         turning = side_by_side(own, layout.sense[..., None] * shafts.ratio)
-    both = (spread(of_webs, (count, of_webs.shape[-1])) for of_webs in (influence, turning))
+    pairs = (spread(of_webs, (count, of_webs.shape[-1])) for of_webs in (influence, turning))
     return [
         TurnResponse("roll", "N m", of_webs, curves, number, at, scalar=True)
-        for number, (of_webs, at) in enumerate(zip(*both, strict=True))
+        for number, (of_webs, at) in enumerate(zip(*pairs, strict=True))
     ]
 
 

@@ -43,27 +43,27 @@ class RowData:
     closed: Real | None = None
     traces: tuple[Trace, ...] = ()  # of chambers whose pressure is given
 
-    def of_designs(self, some: slice) -> "RowData":
+    def of_designs(self, designs: slice) -> "RowData":
         """Data of some of the designs alone."""
 
         def part(value: Any) -> Any:
-            return shared(value[some]) if len(value) > 1 else value
+            return shared(value[designs]) if len(value) > 1 else value
 
         arrays = {name: part(value) for name, value in vars(self).items() if isinstance(value, np.ndarray)}
         traces = tuple(replace(trace, table=part(trace.table), lead=part(trace.lead)) for trace in self.traces)
-        return replace(self, designs=len(range(self.designs)[some]), traces=traces, **arrays)
+        return replace(self, designs=len(range(self.designs)[designs]), traces=traces, **arrays)
 
-    def of_rows(self, some: NDArray[np.intp]) -> "RowData":
+    def of_rows(self, rows: NDArray[np.intp]) -> "RowData":
         """Data of some of the rows alone, of which none has a trace."""
         parts: dict[str, Any] = {
-            name: value[:, some]
+            name: value[:, rows]
             for name, value in vars(self).items()
             if isinstance(value, np.ndarray) and name != "sense"
         }
         return replace(self, **parts)
 
     @cached_property
-    def packed(self) -> "Rows":
+    def kernel_rows(self) -> "Rows":
         """What is compiled takes it as."""
         from optimizer.mechanics.kernel.rows import Rows
 

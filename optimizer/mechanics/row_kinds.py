@@ -65,7 +65,7 @@ def row_kinds(rows: RowData, centre: Real, half: Real) -> RowKinds | None:
     """
     if rows.designs != 1 or rows.traces:
         return None
-    data = rows.packed
+    data = rows.kernel_rows
     count = data.motion.shape[1]
     if len({*map(tuple, data.scale[0].tolist())}) == count:
         return None

@@ -56,7 +56,7 @@ class RowSeries:
     @property
     def rows(self) -> "Rows":
         """The rows that have functions, as what is compiled takes them."""
-        return self.data.packed if self.kinds is None else self.kinds.rows.packed
+        return self.data.kernel_rows if self.kinds is None else self.kinds.rows.kernel_rows
 
     def of_order(self, order: int) -> "RowSeries":
         """The same to a lower order."""
@@ -67,23 +67,23 @@ class RowSeries:
         """The design of each row of angles, (N,)."""
         return np.arange(self.data.designs)
 
-    def functions(self, pressed: bool) -> "Iterator[tuple[Functions, slice]]":
+    def functions(self, with_gas: bool) -> "Iterator[tuple[Functions, slice]]":
         """What forces are made of, with gas where it is pressed, of some angles after the other, to the order or a
         higher one; kept where these are all."""
         if self.higher is not None:
-            yield from self.higher.functions(pressed)
+            yield from self.higher.functions(with_gas)
             return
         # with gas they serve both
-        memo, every = self._memo.get(True) or self._memo.get(pressed), slice(0, self.centre.shape[1])
+        memo, every = self._memo.get(True) or self._memo.get(with_gas), slice(0, self.centre.shape[1])
         if memo is not None:
             yield memo, every
             return
-        for functions, place in self._made(pressed):
+        for functions, place in self._functions(with_gas):
             if place == every:
-                self._memo[pressed] = functions
+                self._memo[with_gas] = functions
             yield functions, place
 
-    def _made(self, pressed: bool) -> "Iterator[tuple[Functions, slice]]":
+    def _functions(self, with_gas: bool) -> "Iterator[tuple[Functions, slice]]":
         entry = turn_kernel()
         rows, angles = self.rows, self.centre.shape[1]
         # the pressures may differ between designs that have all else in common
@@ -97,15 +97,15 @@ class RowSeries:
         ends = [angles * part // parts for part in range(parts + 1)]
         for first, last in pairwise(ends):
             place = slice(first, last)
-            some = _flat(centre[:, place])
+            about = _flat(centre[:, place])
             places = entry.Places(
                 np.repeat(design, last - first),
-                some,
+                about,
                 NO_WIDTHS if half is None else _flat(half[:, place]),
-                some if within is centre else _flat(within[:, place]),
+                about if within is centre else _flat(within[:, place]),
             )
-            made = entry.over_turn(entry.FUNCTIONS, rows, places=places, order=self.order, pressed=pressed)[0]
-            yield entry.Functions(*made), place
+            outcome = entry.over_turn(entry.FUNCTIONS, rows, places=places, order=self.order, with_gas=with_gas)[0]
+            yield entry.Functions(*outcome), place
 
     @cached_property
     def _memo(self) -> "dict[bool, Functions]":

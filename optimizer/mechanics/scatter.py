@@ -33,9 +33,9 @@ def worst_signs(parts: Phasors, weight_x: float, weight_y: float) -> Real:
     axis = np.exp(0.5j * (np.angle(parts.co) + np.angle(parts.counter)))
     phase = 0.5 * (np.angle(parts.co) - np.angle(parts.counter))
     towards = np.angle(weight_x * axis.real + 1j * weight_y * axis.imag)
-    along, turned = _signs(towards), _signs(phase)
-    some = (along[:, None, :] * turned[None, :, :]).reshape(-1, towards.size)
-    return np.unique(np.concatenate([some, -some]), axis=0)
+    along, across = _signs(towards), _signs(phase)
+    signs = (along[:, None, :] * across[None, :, :]).reshape(-1, towards.size)
+    return np.unique(np.concatenate([signs, -signs]), axis=0)
 
 
 def weighted(vector: Phasors, weight_x: float, weight_y: float) -> Phasors:

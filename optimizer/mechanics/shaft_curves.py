@@ -75,12 +75,12 @@ def bending_moments(turn: WholeTurn, layout: Layout, places: Real, influence: In
     """
     corners = stations(layout, places)
     moment = bending_influence(layout, places, influence(places, planes(layout)), corners)
-    some = np.any(np.abs(moment) > 0.0, axis=-1)
-    if not np.any(some):
+    mask = np.any(np.abs(moment) > 0.0, axis=-1)
+    if not np.any(mask):
         # every load sits on a bearing of its own
-        some[..., 0] = True
-    names = [f"bending:{station!r}" for station in corners[some].tolist()]
-    return beside(layout, shaft_curves(turn, layout, moment[some]).responses(names, "N m"))
+        mask[..., 0] = True
+    names = [f"bending:{station!r}" for station in corners[mask].tolist()]
+    return beside(layout, shaft_curves(turn, layout, moment[mask]).responses(names, "N m"))
 
 
 def stations(layout: Layout, places: Real) -> Real:
@@ -92,9 +92,9 @@ def stations(layout: Layout, places: Real) -> Real:
     ----------
     places : (..., B) of the bearings, m.
     """
-    loaded = planes(layout)
-    supported = spread(places, (*loaded.shape[:-1], places.shape[-1]))
-    every = np.sort(np.concatenate([loaded, supported], axis=-1), axis=-1)
+    load_planes = planes(layout)
+    supported = spread(places, (*load_planes.shape[:-1], places.shape[-1]))
+    every = np.sort(np.concatenate([load_planes, supported], axis=-1), axis=-1)
     apart = np.ones(every.shape, dtype=bool)
     np.greater(every[..., 1:], every[..., :-1], out=apart[..., 1:])
     return every[..., np.logical_or.reduce(apart, axis=tuple(range(every.ndim - 1)))]

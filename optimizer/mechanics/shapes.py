@@ -31,7 +31,7 @@ def _side_by_side(envelopes: tuple[Envelope | None, ...]) -> Plates:
     """The plates of the webs, which machines have in common whose counterweights differ."""
     cut = [(k, envelope) for k, envelope in enumerate(envelopes) if envelope is not None]
     parts = []
-    for shape, made in _SHAPES.items():
+    for shape, plates_of in _SHAPES.items():
         places = np.array([n for n, (_, plate) in enumerate(cut) if plate.shape == shape], dtype=int)
         if places.size:
             of_shape = [cut[n][1] for n in places]
@@ -41,7 +41,7 @@ def _side_by_side(envelopes: tuple[Envelope | None, ...]) -> Plates:
             ]
             inner, outer, areal = np.array(figures).T
             parts.append(
-                (places, made(inner, outer, areal, np.deg2rad([plate.max_half_angle_deg for plate in of_shape])))
+                (places, plates_of(inner, outer, areal, np.deg2rad([plate.max_half_angle_deg for plate in of_shape])))
             )
     kinds = [envelopes.index(plate) for _, plate in cut]
     return Plates(np.array([k for k, _ in cut]), np.array(kinds), parts)

@@ -98,11 +98,11 @@ class WholeTurn:
         """Sums of a force of the rows over weights (N, C, R), with constants (N, C): N C curves."""
         return TurnCurves(self, reading, weights, spread(np.asarray(constant), weights.shape[:2]))
 
-    def of_designs(self, some: slice) -> "WholeTurn":
+    def of_designs(self, designs: slice) -> "WholeTurn":
         """The turn of some of the designs alone."""
-        means = None if self.means is None else self.means[some]
-        rows = self.rows.of_designs(some)
-        return WholeTurn(rows, self.centre[some], self.half[some], self.turns, means, self.squared)
+        means = None if self.means is None else self.means[designs]
+        rows = self.rows.of_designs(designs)
+        return WholeTurn(rows, self.centre[designs], self.half[designs], self.turns, means, self.squared)
 
     def of_rows(self, reading: Reading) -> "TurnCurves":
         """A force of every row by itself; of the first row of each kind alone, where there are kinds."""
@@ -198,8 +198,8 @@ def whole_turn(
     centre = turn.start.reshape(half.shape) + half
     half = np.where(half > 0.5 * SLIVER, half, 0.0)
     # where breaks of all designs coincide there is no piece
-    held = np.logical_or.reduce(half > 0.0, axis=0)
-    centre, half = centre[:, held], half[:, held]
+    has_width = np.logical_or.reduce(half > 0.0, axis=0)
+    centre, half = centre[:, has_width], half[:, has_width]
     shape = (rows.designs, half.shape[1])
     if means is not None:
         count = means.shape[-1]
@@ -225,26 +225,26 @@ class TurnCurves:
     def period_deg(self) -> float:
         return 360.0 * self.whole.turns
 
-    def of_designs(self, some: slice) -> "TurnCurves":
+    def of_designs(self, designs: slice) -> "TurnCurves":
         """The curves of some of the designs alone."""
-        return TurnCurves(self.whole.of_designs(some), self.reading, self.weights[some], self.constant[some])
+        return TurnCurves(self.whole.of_designs(designs), self.reading, self.weights[designs], self.constant[designs])
 
     def first(self, count: int) -> "TurnCurves":
         """The first curves of each design alone."""
-        some = TurnCurves(self.whole, self.reading, self.weights[:, :count], self.constant[:, :count])
-        if len(self.weights) == 1 and ("pieces" in vars(self) or "_taken" in vars(self)):
-            some.take(self.pieces, slice(0, count))
-        return some
+        result = TurnCurves(self.whole, self.reading, self.weights[:, :count], self.constant[:, :count])
+        if len(self.weights) == 1 and ("pieces" in vars(self) or "_excerpt" in vars(self)):
+            result.take(self.pieces, slice(0, count))
+        return result
 
     def take(self, pieces: Pieces, own: slice) -> None:
         """Have those of a batch, where these curves have none yet."""
-        vars(self).setdefault("_taken", (pieces, own))
+        vars(self).setdefault("_excerpt", (pieces, own))
 
     @cached_property
     def pieces(self) -> Pieces:
         """The curves piece by piece (N C, P)."""
-        if "_taken" in vars(self):
-            pieces, own = vars(self)["_taken"]
+        if "_excerpt" in vars(self):
+            pieces, own = vars(self)["_excerpt"]
             return pieces.part(own, self)
         whole = self.whole
         if whole.forces is None:
@@ -385,4 +385,6 @@ def _sums(values: Any, count: Index) -> Any:
     """Sums (N, C) of the first so many (N,) of values (N, C, n), each added up as of a design alone."""
     if len(count) == 1 or all_true(count == values.shape[-1]):
         return np.add.reduce(values, axis=-1)
-    return np.array([np.add.reduce(row[:, :some], axis=-1) for row, some in zip(values, count.tolist(), strict=True)])
+    return np.array(
+        [np.add.reduce(row[:, :number], axis=-1) for row, number in zip(values, count.tolist(), strict=True)]
+    )

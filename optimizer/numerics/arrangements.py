@@ -18,13 +18,13 @@ def arrangements(times: NDArray[np.int64], places: int) -> NDArray[np.int64]:
     ----------
     times : (kinds,) how many there are of every kind, together at least as many as places.
     """
-    left, chosen = np.asarray(times)[None, :], np.zeros((1, 0), dtype=np.int64)
+    left, kinds = np.asarray(times)[None, :], np.zeros((1, 0), dtype=np.int64)
     for _ in range(places):
         before, kind = np.nonzero(left)
         left = left[before]
         left[np.arange(before.size), kind] -= 1
-        chosen = np.concatenate([chosen[before], kind[:, None]], axis=1)
-    return chosen
+        kinds = np.concatenate([kinds[before], kind[:, None]], axis=1)
+    return kinds
 
 
 def _number(times: NDArray[np.int64], places: int) -> int:

@@ -84,7 +84,7 @@ def read_only(array: NDArray[Any]) -> NDArray[Any]:
     return view
 
 
-def merged(leading: tuple[int, ...], array: NDArray[Any], own: int) -> NDArray[Any]:
+def single_axis(leading: tuple[int, ...], array: NDArray[Any], own: int) -> NDArray[Any]:
     """An array with one axis in place of leading axes, which it has or is spread along, and its last ``own`` axes."""
     if not leading and array.ndim == own:
         return in_order(array)[None]
@@ -95,12 +95,12 @@ def merged(leading: tuple[int, ...], array: NDArray[Any], own: int) -> NDArray[A
 
 
 def of_programs_of(leading: tuple[int, ...]) -> Callable[[NDArray[Any], int], NDArray[Any]]:
-    """:func:`merged` of these leading axes; of one program alone, which has dozens of arrays, in half the time."""
-    return partial(merged, leading) if leading else _alone
+    """:func:`single_axis` of these leading axes; of one program alone, which has dozens of arrays, in half the time."""
+    return partial(single_axis, leading) if leading else _alone
 
 
 def _alone(array: NDArray[Any], own: int) -> NDArray[Any]:
-    return array[None] if array.ndim == own and array.flags.carray else merged((), array, own)
+    return array[None] if array.ndim == own and array.flags.carray else single_axis((), array, own)
 
 
 def plain(array: NDArray[Any]) -> NDArray[Any]:
@@ -124,17 +124,17 @@ def in_order(array: NDArray[Any]) -> NDArray[Any]:
     return array if array.flags.carray else np.array(array, order="C")
 
 
-def columns(array: NDArray[Any], chosen: NDArray[np.bool_]) -> NDArray[Any]:
+def columns(array: NDArray[Any], selection: NDArray[np.bool_]) -> NDArray[Any]:
     """Some of the numbers (..., K) along the last axis, in the usual order in memory.
 
     Parameters
     ----------
-    chosen : (K,); or (N, K), as many of each row, of an array (N, ..., K).
+    selection : (K,); or (N, K), as many of each row, of an array (N, ..., K).
     """
-    if chosen.ndim == 1:
-        return array[..., chosen].copy()
-    mask = np.broadcast_to(np.expand_dims(chosen, tuple(range(1, array.ndim - 1))), array.shape)
-    return array[mask].reshape(*array.shape[:-1], np.count_nonzero(chosen[:1]))
+    if selection.ndim == 1:
+        return array[..., selection].copy()
+    mask = np.broadcast_to(np.expand_dims(selection, tuple(range(1, array.ndim - 1))), array.shape)
+    return array[mask].reshape(*array.shape[:-1], np.count_nonzero(selection[:1]))
 
 
 def any_true(mask: NDArray[np.bool_]) -> bool:

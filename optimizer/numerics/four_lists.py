@@ -18,7 +18,7 @@ _SPREAD = 2.51
 _SIDES = 3
 
 
-def nearest_sums(lists: Sequence[Real], about: Real, wanted: Real) -> np.ndarray:
+def nearest_sums(lists: Sequence[Real], about: Real, target: Real) -> np.ndarray:
     """Which points of four lists, (n, d) each, have sums that come nearest to what is wanted (d,): (4, M) numbers.
 
     Parameters
@@ -26,10 +26,10 @@ def nearest_sums(lists: Sequence[Real], about: Real, wanted: Real) -> np.ndarray
     about : (d,) what points of the first two lists come to together, about.
     """
     points, two, three, four = lists
-    first, second = _met(points, about - two), _met(three, wanted - about - four)
+    first, second = _met(points, about - two), _met(three, target - about - four)
     left, right = points[first[0]] + two[first[1]], three[second[0]] + four[second[1]]
-    i, j = _met(left, wanted - right)
-    apart = np.sum((left[i] + right[j] - wanted) ** 2, axis=1)
+    i, j = _met(left, target - right)
+    apart = np.sum((left[i] + right[j] - target) ** 2, axis=1)
     best = np.argpartition(apart, _NEAREST)[:_NEAREST] if apart.size > _NEAREST else np.arange(apart.size)
     return np.concatenate([first[:, i[best]], second[:, j[best]]])
 

@@ -19,7 +19,7 @@ from optimizer.numerics.loading import Library
 class _Linked(Library):
     """A function and all that it calls, optimised when its machine code is first asked for."""
 
-    _made = False
+    _is_final = False
 
     def _optimize_functions(self, module: Any) -> None:
         # by passes that are put together once, and not those that are only named here
@@ -33,11 +33,11 @@ class _Linked(Library):
         """Later, or never."""
 
     def _set_compiled_object(self, value: bytes) -> None:
-        self._made = True
+        self._is_final = True
         super()._set_compiled_object(value)
 
     def _finalize_final_module(self) -> None:
-        if self._made:
+        if self._is_final:
             super()._finalize_final_module()
         else:
             self._finalize_dynamic_globals()
@@ -45,10 +45,10 @@ class _Linked(Library):
 
     def get_pointer_to_function(self, name: str) -> int:
         self._ensure_finalized()
-        if not self._made and name in {function.name for function in self.get_defined_functions()}:
+        if not self._is_final and name in {function.name for function in self.get_defined_functions()}:
             # other kernels are linked with it as it was: loops that are written out would be written out once more
             self._get_module_for_linking()
-            self._made = True
+            self._is_final = True
             super()._optimize_final_module()
             self._final_module.verify()
             self._finalize_final_module()
@@ -79,9 +79,9 @@ def link_first() -> None:
     codegen._function_pass_manager = first_passes  # noqa: SLF001
     set_env = codegen.set_env
 
-    def set_where_made(name: str, env: Any) -> None:
+    def set_where_present(name: str, env: Any) -> None:
         # what is not machine code has no place for its environment, and nobody to look there
         if codegen._engine.get_global_value_address(name):  # noqa: SLF001
             set_env(name, env)
 
-    codegen.set_env = set_where_made
+    codegen.set_env = set_where_present

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 Machine = TypeVar("Machine")
 Part = TypeVar("Part")
-Made = TypeVar("Made")
+Result = TypeVar("Result")
 
 if TYPE_CHECKING:
     from functools import cached_property as cached_property
@@ -30,7 +30,7 @@ else:
             return value
 
 
-def remembered(function: Callable[[Machine], Made]) -> Callable[[Machine], Made]:
+def remembered(function: Callable[[Machine], Result]) -> Callable[[Machine], Result]:
     """The function, which remembers what it made of the last machine that it was given.
 
     Machines are frozen, so that the very same one has the same of everything; whoever gets an array writes nothing
@@ -40,23 +40,23 @@ def remembered(function: Callable[[Machine], Made]) -> Callable[[Machine], Made]
     last: tuple[Any, Any] = (object(), None)
 
     @wraps(function)
-    def memoized(machine: Machine) -> Made:
+    def memoized(machine: Machine) -> Result:
         nonlocal last
-        subject, made = last
+        subject, result = last
         if subject is not machine:
-            made = function(machine)
-            last = machine, made
-        return made
+            result = function(machine)
+            last = machine, result
+        return result
 
     return memoized
 
 
-def remembered_of_both(function: Callable[[Part, Machine], Made]) -> Callable[[Part, Machine], Made]:
+def remembered_of_pair(function: Callable[[Part, Machine], Result]) -> Callable[[Part, Machine], Result]:
     """The same of a function of two."""
-    last: tuple[Part, Machine, Made] | None = None
+    last: tuple[Part, Machine, Result] | None = None
 
     @wraps(function)
-    def memoized(part: Part, machine: Machine) -> Made:
+    def memoized(part: Part, machine: Machine) -> Result:
         nonlocal last
         memory = last
         if memory is None or memory[0] is not part or memory[1] is not machine:

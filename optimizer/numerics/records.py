@@ -16,21 +16,21 @@ def _contents(kind: Any) -> Callable[[Any], object]:
     return attrgetter(*(field.name for field in fields(kind)))
 
 
-def _held(instance: Any) -> object:
+def _values(instance: Any) -> object:
     return _contents(instance.__class__)(instance)
 
 
 def _equal(instance: Any, other: object) -> bool:
-    return _held(instance) == _held(other) if other.__class__ is instance.__class__ else NotImplemented
+    return _values(instance) == _values(other) if other.__class__ is instance.__class__ else NotImplemented
 
 
 def _hash(instance: Any) -> int:
-    return hash(_held(instance))
+    return hash(_values(instance))
 
 
 def _text(instance: Any) -> str:
-    shown = ", ".join(f"{field.name}={getattr(instance, field.name)!r}" for field in fields(instance) if field.repr)
-    return f"{instance.__class__.__qualname__}({shown})"
+    text = ", ".join(f"{field.name}={getattr(instance, field.name)!r}" for field in fields(instance) if field.repr)
+    return f"{instance.__class__.__qualname__}({text})"
 
 
 def _record(*, frozen: bool) -> Callable[[type[Kind]], type[Kind]]:

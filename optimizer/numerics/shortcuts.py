@@ -143,11 +143,11 @@ def _load_registries_once() -> None:
 
 
 def _once(context: Any) -> None:
-    load, loaded = context.load_additional_registries, set()
+    load, contexts = context.load_additional_registries, set()
 
     def load_additional_registries(self: Any) -> None:
-        if id(self) not in loaded:
+        if id(self) not in contexts:
             load(self)
-            loaded.add(id(self))
+            contexts.add(id(self))
 
     context.load_additional_registries = load_additional_registries

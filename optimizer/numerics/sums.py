@@ -44,9 +44,9 @@ def force_and_couple(forces: Complex, arm: Real) -> tuple[Complex, Complex]:
     couples = arm * forces
     terms = np.empty((2, *couples.shape), complex)
     terms[0], terms[1] = forces, couples
-    both = total(terms)
+    sums = total(terms)
     # numbers where there are no more axes: arithmetic of arrays without axes takes several times as long
-    return both[0], both[1]
+    return sums[0], sums[1]
 
 
 def _single_machine(forces: Complex, arm: Real) -> bool:
@@ -83,8 +83,8 @@ def _in_plain_numbers(forces: Complex, arm: Real) -> tuple[Complex, Complex]:
         value = sum(terms, 0j)
         size = abs(value)
         sums.append(0j if size <= most or size <= SMALLEST else value)
-    both = np.array(sums, complex)
-    return (both[0], both[1]) if alone else (both[: len(vectors)], both[len(vectors) :])
+    pair = np.array(sums, complex)
+    return (pair[0], pair[1]) if alone else (pair[: len(vectors)], pair[len(vectors) :])
 
 
 def _in_a_loop(forces: Complex, arm: Real) -> tuple[Complex, Complex]:
@@ -98,8 +98,8 @@ def _in_a_loop(forces: Complex, arm: Real) -> tuple[Complex, Complex]:
     own = in_order(spread(arms, (*leading, terms))).reshape(number, terms)
     sums = np.empty((2, number, many), complex)
     _loop()(columns, own, sums)
-    both = sums.reshape(2, *shape[:-1])
-    return both[0, ...], both[1, ...]
+    pair = sums.reshape(2, *shape[:-1])
+    return pair[0, ...], pair[1, ...]
 
 
 # loads the compiler, a tenth of a second, and so at the first call; an import at each takes as long as a short loop

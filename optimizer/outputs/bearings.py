@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 
 from optimizer.formulation.simulation import Prepared
-from optimizer.mechanics.angles import turned
+from optimizer.mechanics.angles import shaft_vectors
 from optimizer.mechanics.shaft_curves import ShaftCurves
 from optimizer.numerics.arrays import Complex, Real, in_order
 from optimizer.outputs.balance_rate import cranks
@@ -100,7 +100,7 @@ def _loads(
     bearings, square = scene.machine.bearings, scene.omega_squared
     count = len(bearings)
     offset = np.array([curves.offsets(unbalance) for unbalance in sets])
-    samples = _samples(scene) + (offset * square)[..., None] * turned(scene.layout.sense, scene.angle_rad)
+    samples = _samples(scene) + (offset * square)[..., None] * shaft_vectors(scene.layout.sense, scene.angle_rad)
     centre, radius = ((fixed.centre[:count] + offset) * square).tolist(), (fixed.radius[:count] * square).tolist()
     rms = (np.sqrt(curves.curves.variance + np.abs(curves.curves.mean + offset) ** 2) * square).tolist()
     # of all sets, one after the other

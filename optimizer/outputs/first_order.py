@@ -8,7 +8,7 @@ from typing import NamedTuple
 from optimizer.effects.inertia import FIRST_ORDER_EFFECTS
 from optimizer.formulation.formulate import RESPONSES
 from optimizer.formulation.simulation import Prepared
-from optimizer.mechanics.angles import turned
+from optimizer.mechanics.angles import shaft_vectors
 from optimizer.mechanics.balance_shafts import shaft_arms
 from optimizer.mechanics.frame import phasors
 from optimizer.mechanics.inertia import Wrench
@@ -149,11 +149,11 @@ def _second_order(scene: Prepared, with_shafts: Sequence[bool]) -> list[PlainWre
 
 def hodographs(scene: Prepared, unbalance: Complex | None) -> Hodographs:
     """First order of one machine over the turn."""
-    unit = turned(scene.layout.sense, scene.angle_rad)[: scene.first_turn_deg.size]
+    unit = shaft_vectors(scene.layout.sense, scene.angle_rad)[: scene.first_turn_deg.size]
     wrenches = [scene.first_order()] if unbalance is None else [scene.first_order(), scene.first_order(unbalance)]
     # force and moment of each, all at once
     vectors = vectors_of(wrenches)
-    curves = Phasors(vectors[..., 0], vectors[..., 1]).of_turned(unit)
+    curves = Phasors(vectors[..., 0], vectors[..., 1]).of_rotation(unit)
     return Hodographs.of_figures(
         {
             "angle_deg": scene.angles if scene.turns == 1 else scene.first_turn_deg,

@@ -151,7 +151,7 @@ def row_peaks(scene: Prepared, reading: Reading) -> list[PeakList]:
     """Largest values of a force of every row of one machine, and its smallest values negated."""
     peaks = peak_list(scene, _rows_name(reading), lambda: rows_search(scene, reading)).split(2)
     kinds = scene.results["whole_turn"].kinds
-    return peaks if kinds is None else [half.turned(kinds.kind.tolist(), kinds.ahead_deg) for half in peaks]
+    return peaks if kinds is None else [half.at_places(kinds.kind.tolist(), kinds.ahead_deg) for half in peaks]
 
 
 def row_magnitudes(scene: Prepared, reading: Reading) -> list[tuple[float, float]]:

@@ -44,11 +44,16 @@ class _Scaled:
     clearance: Real
     error: Real
     torque: Real  # (m,)
-    held: bool = False
+    is_rigid: bool = False
 
     def take(self, rows: np.ndarray) -> "_Scaled":
         return _Scaled(
-            self.lever[rows], self.stiffness[rows], self.clearance[rows], self.error[rows], self.torque[rows], self.held
+            self.lever[rows],
+            self.stiffness[rows],
+            self.clearance[rows],
+            self.error[rows],
+            self.torque[rows],
+            self.is_rigid,
         )
 
     def strain(self, turn: Real, shift: Real) -> Real:
@@ -56,7 +61,7 @@ class _Scaled:
 
     def net(self, force: Real) -> Real:
         """Sum of forces (m, n) that a shift has to bring to 0."""
-        return np.zeros(force.shape[:-1]) if self.held else np.sum(force, axis=-1)
+        return np.zeros(force.shape[:-1]) if self.is_rigid else np.sum(force, axis=-1)
 
     def beyond(self, strain: Real) -> Real:
         """Strain beyond the clearance, signed; 0 where the pin does not bear."""
@@ -64,7 +69,7 @@ class _Scaled:
 
 
 def pin_contact(
-    lever: Real, torque: Real, stiffness: Real, clearance: Real, error: Real, held: bool = False
+    lever: Real, torque: Real, stiffness: Real, clearance: Real, error: Real, is_rigid: bool = False
 ) -> Contact:
     """Loads at any number of shaft angles at once.
 
@@ -77,19 +82,19 @@ def pin_contact(
     stiffness : (..., n) N/m, k > 0.
     clearance : (..., n) m, c >= 0.
     error : (..., n) m, eps.
-    held : whether a rigid bearing keeps t = 0.
+    is_rigid : whether a rigid bearing keeps t = 0.
     """
     shape = np.broadcast_shapes(lever.shape, (*np.shape(torque), 1), stiffness.shape, clearance.shape, error.shape)
     a, k, c, eps = (np.broadcast_to(x, shape).reshape(-1, shape[-1]) for x in (lever, stiffness, clearance, error))
     moment = np.broadcast_to(torque, shape[:-1]).reshape(-1)
     stiffest = np.max(k, axis=-1)
     k = k / stiffest[:, None]
-    mean = np.zeros(k.shape[:-1]) if held else np.sum(k * a, axis=-1) / np.sum(k, axis=-1)
+    mean = np.zeros(k.shape[:-1]) if is_rigid else np.sum(k * a, axis=-1) / np.sum(k, axis=-1)
     a = a - mean[:, None]
     reach = _nonzero(np.max(np.abs(a), axis=-1))
     moment = moment / (reach * stiffest)
     size = _nonzero(np.max(np.concatenate([np.abs(moment)[:, None], c, np.abs(eps)], axis=-1), axis=-1))
-    scaled = _Scaled(a / reach[:, None], k, c / size[:, None], eps / size[:, None], moment / size, held)
+    scaled = _Scaled(a / reach[:, None], k, c / size[:, None], eps / size[:, None], moment / size, is_rigid)
     turn, shift = _minimise(scaled)
     load = _in_equilibrium(scaled, turn, shift)
     gap = _gap(scaled, turn, shift, load)
@@ -195,8 +200,8 @@ def _in_equilibrium(scaled: _Scaled, turn: Real, shift: Real) -> Real:
     for _ in range(2):
         force = -scaled.net(load)
         moment = scaled.torque - np.sum(load * scaled.lever, axis=-1) - mean * force
-        turned = np.where(square > 0.0, moment / _nonzero(square), 0.0)
-        load = load + bearing * (turned[:, None] * beyond + (force / whole)[:, None])
+        twist = np.where(square > 0.0, moment / _nonzero(square), 0.0)
+        load = load + bearing * (twist[:, None] * beyond + (force / whole)[:, None])
     return load
 
 
@@ -232,6 +237,6 @@ def _rounding(scaled: _Scaled, turn: Real, shift: Real, load: Real) -> Real:
     beyond, whole, square, _ = _about_mean(scaled, bearing)
     # levers are at most 1: a sum of n products, each with a lever that is known to some eps
     off = (load.shape[-1] + 8.0) * _EPS * (np.sum(np.abs(load), axis=-1) + np.abs(scaled.torque))
-    turned = np.where(square > 0.0, off / _nonzero(square), 0.0)
-    spread = bearing * (turned[:, None] * np.abs(beyond) + (off / whole)[:, None])
+    twist = np.where(square > 0.0, off / _nonzero(square), 0.0)
+    spread = bearing * (twist[:, None] * np.abs(beyond) + (off / whole)[:, None])
     return np.max(4.0 * _EPS * scaled.stiffness * parts + spread, axis=-1)

@@ -45,14 +45,14 @@ def compared(
     of_ring = keys(data, torque.at(angle), np.deg2rad(angle)).loss(friction)
     loss = float(np.sum(weight * of_ring)) / (2.0 * np.pi)
     at_samples = keys(data, torque.at(angle_deg), np.deg2rad(angle_deg))
-    shown = _ring(at_samples, orbit_radius * omega, loss)
-    return Losses(pins_W=pins, oldham_ring=shown, ratio=None if pins is None or loss == 0.0 else pins / loss)
+    loads = _ring(at_samples, orbit_radius * omega, loss)
+    return Losses(pins_W=pins, oldham_ring=loads, ratio=None if pins is None or loss == 0.0 else pins / loss)
 
 
 def _ring(keys: Keys, speed: float, loss: float) -> OldhamLoads:
     return OldhamLoads(
         frame_key_N=keys.frame,
-        scroll_keys_N=tuple((key, other) for key, other in keys.scroll.tolist()),
+        scroll_keys_N=tuple((key, second) for key, second in keys.scroll.tolist()),
         frame_speed_m_s=keys.frame_speed,
         scroll_speed_m_s=keys.scroll_speed,
         peak_key_N=float(max(np.max(np.abs(keys.frame)), np.max(np.abs(keys.scroll)))),

@@ -39,12 +39,12 @@ class Pins:
     place: Complex  # m, R e^{j psi}
     stiffness: Real  # N/m, or relative to each other
     #: a rigid bearing of the drive holds the scroll's centre and carries the net force
-    held: bool = False
+    is_rigid: bool = False
 
     @property
     def offset(self) -> Complex:
         """Places from where the scroll turns, w (..., n) m: from their mean, weighted with the stiffnesses."""
-        if self.held:
+        if self.is_rigid:
             return self.place
         weight = self.stiffness / np.sum(self.stiffness, axis=-1, keepdims=True)
         # from pin to pin: the mean is next to a pin that is much stiffer than the others, and would cancel there
@@ -114,10 +114,10 @@ def elastic_loads(torque: Real, pins: Pins, angle_deg: Real) -> Real:
     """
     size = np.max(np.abs(pins.place), axis=-1, keepdims=True)
     relative = pins.stiffness / np.max(pins.stiffness, axis=-1, keepdims=True)
-    scaled = Pins(pins.place / size, relative, pins.held)
+    scaled = Pins(pins.place / size, relative, pins.is_rigid)
     lever = levers(scaled.offset, angle_deg)
     moment = torque / size[..., 0]
-    if pins.held:
+    if pins.is_rigid:
         return _about_centre(moment, lever, relative)
     load = _distribute(moment, np.zeros_like(moment), lever, relative)
     # very unequal stiffnesses cost digits, which one step of refinement brings back
@@ -165,10 +165,10 @@ def dead_points(place: Complex) -> Real:
     major, minor, along = principal(place - np.mean(place), np.ones(place.shape))
     if minor > COLLINEAR * major:
         return np.zeros(0)
-    return _both_ways(np.rad2deg(along))
+    return _opposite_angles(np.rad2deg(along))
 
 
-def _both_ways(angle_deg: Real) -> Real:
+def _opposite_angles(angle_deg: Real) -> Real:
     """The angle in [0, 180) and its opposite; on a round figure where rounding alone keeps it off."""
     round_figure = np.round(angle_deg, 6)
     near = np.where(np.abs(angle_deg - round_figure) < 1e-10, round_figure, angle_deg)
@@ -202,11 +202,11 @@ class LoadShapes:
     @classmethod
     def elastic(cls, pins: Pins) -> "LoadShapes":
         relative = pins.stiffness / np.max(pins.stiffness)
-        offset = Pins(pins.place, relative, pins.held).offset
+        offset = Pins(pins.place, relative, pins.is_rigid).offset
         major, minor, axis = principal(offset, relative)
         whole = float(major**2 + minor**2)
         push = relative * offset
-        if pins.held:
+        if pins.is_rigid:
             push = np.append(push, -np.sum(push))
         return cls(
             2.0 * np.abs(push) / whole,
@@ -294,13 +294,13 @@ class _Piece:
         return np.rad2deg(self.slope) * sine * below + torque * (cosine * below - sine * change)
 
 
-def _largest(shapes: LoadShapes, torque: PeriodicTable, tried: Real) -> tuple[Real, Real]:
+def _largest(shapes: LoadShapes, torque: PeriodicTable, candidates: Real) -> tuple[Real, Real]:
     """Largest magnitude among angles (n, c), and the first of those where it stands."""
-    sine, _, below, _ = shapes.parts(tried)
-    size = np.abs(torque.at(tried) * shapes.factor[:, None] * sine) / np.where(below > 0.0, below, np.inf)
+    sine, _, below, _ = shapes.parts(candidates)
+    size = np.abs(torque.at(candidates) * shapes.factor[:, None] * sine) / np.where(below > 0.0, below, np.inf)
     peak = np.max(size, axis=-1)
     # equal peaks half a turn apart differ in the last digits
-    first = np.where(size >= peak[:, None] * (1.0 - 1e-13), tried, np.inf)
+    first = np.where(size >= peak[:, None] * (1.0 - 1e-13), candidates, np.inf)
     return peak, np.where(peak > 0.0, np.mod(np.round(np.min(first, axis=-1), 10), 360.0), 0.0)
 
 

@@ -35,7 +35,7 @@ class Pattern:
         return int(self.radius.size)
 
     @property
-    def held(self) -> bool:
+    def is_rigid(self) -> bool:
         """The scroll's centre stays on the eccentric."""
         return self.drive == np.inf
 
@@ -47,8 +47,8 @@ class Pattern:
 
     @property
     def pins(self) -> Pins:
-        if self.held:
-            return Pins(self.places[:-1], self.stiffness, held=True)
+        if self.is_rigid:
+            return Pins(self.places[:-1], self.stiffness, is_rigid=True)
         return Pins(self.places, self._with_drive(self.stiffness, self.drive))
 
     @property
@@ -68,7 +68,9 @@ class Pattern:
         # levers are equal at a dead point, and no turn of the scroll changes a strain; digits alone would differ
         lever = np.where(dead[..., None], 0.0, levers(self.pins.place, angle_deg))
         clearance, error = self._with_drive(self.clearance, 0.0), self._with_drive(self.error, 0.0)
-        return pin_contact(lever, np.where(dead, 0.0, torque), self.pins.stiffness, clearance, error, held=self.held)
+        return pin_contact(
+            lever, np.where(dead, 0.0, torque), self.pins.stiffness, clearance, error, is_rigid=self.is_rigid
+        )
 
     def loads(self, torque: Real, angle_deg: Real) -> Real:
         """(..., n) N, or (..., n + 1) with the drive's bearing; at dead points, which hold no torque, those of none."""
@@ -80,7 +82,7 @@ class Pattern:
 
     def with_rest(self, load: Real) -> Real:
         """Loads with what a rigid bearing carries: the rest of the net force."""
-        return np.concatenate([load, -np.sum(load, axis=-1, keepdims=True)], axis=-1) if self.held else load
+        return np.concatenate([load, -np.sum(load, axis=-1, keepdims=True)], axis=-1) if self.is_rigid else load
 
     def shapes(self) -> LoadShapes:
         """Of the same columns as the loads; without clearances."""

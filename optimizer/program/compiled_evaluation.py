@@ -11,7 +11,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from optimizer.numerics.arrays import Complex, Real, in_order, merged, of_programs_of, spread
+from optimizer.numerics.arrays import Complex, Real, in_order, of_programs_of, single_axis, spread
 from optimizer.numerics.records import record
 from optimizer.program.kernel.programs import Programs, Region
 from optimizer.program.limits import Limits
@@ -148,7 +148,7 @@ class Flat:
         objective : (*leading, 1) size of the objective, or (*leading, rows) of its rows.
         """
         programs, region, least = self.programs, self.programs.region, np.empty(math.prod(self.leading))
-        limits, size = (region.radius, region.max_mass, region.budget), merged(self.leading, objective, 1)
+        limits, size = (region.radius, region.max_mass, region.budget), single_axis(self.leading, objective, 1)
         rows = programs.floor.shape[1]
         _units().least_masses(programs.owner, rows, self._magnitude, *limits, size, programs.size, least)
         return least.reshape(self.leading)
@@ -157,7 +157,7 @@ class Flat:
         """What vectors of some sizes (*leading, J + I) call for one by one."""
         region, reach = self.programs.region, np.empty(math.prod(self.leading))
         limits = region.radius, region.max_mass, region.budget
-        flags = _units().single_reaches(merged(self.leading, sizes, 1), self._magnitude, *limits, FAR, reach)
+        flags = _units().single_reaches(single_axis(self.leading, sizes, 1), self._magnitude, *limits, FAR, reach)
         return Reaches(reach.reshape(self.leading), *flags)
 
     @property

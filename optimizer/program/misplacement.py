@@ -12,7 +12,7 @@ from types import ModuleType
 
 import numpy as np
 
-from optimizer.numerics.arrays import Complex, Real, in_order, merged
+from optimizer.numerics.arrays import Complex, Real, in_order, single_axis
 from optimizer.program.norms import Norms
 from optimizer.program.statement import Statement
 
@@ -32,7 +32,7 @@ def worst_objectives(statement: Statement, u: Complex, angle: float, share: floa
         programs.constant,
         programs.influence,
         programs.across,
-        merged(flat.leading, u, 1),
+        single_axis(flat.leading, u, 1),
         angle,
         share,
         objectives,

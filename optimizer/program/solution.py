@@ -19,7 +19,7 @@ OPTIMUM_SHARE = 1e-6
 #: counterweights below this share of the largest are left out where the answer stays optimal
 NEGLIGIBLE = 1e-7
 
-Some = TypeVar("Some", bound="Solutions")
+Kind = TypeVar("Kind", bound="Solutions")
 
 CONE_PROGRAM = "cone program, clarabel"
 INTERIOR_POINT = "interior point, compiled"
@@ -97,11 +97,11 @@ class Solutions:
     certify_s: Real  # (N,) time spent on bounds
     clean: np.ndarray  # (N,) bool: no counterweight is next to nothing beside the largest; False where nobody looked
 
-    def subset(self: Some, programs: np.ndarray) -> Some:
+    def subset(self: Kind, programs: np.ndarray) -> Kind:
         """Those of some of the programs."""
         return mapped(self, lambda array: array[programs])
 
-    def put(self: Some, programs: np.ndarray, solutions: Some) -> None:
+    def put(self: Kind, programs: np.ndarray, solutions: Kind) -> None:
         """Others for some of the programs, in place."""
         for field in fields(self):
             value, replacement = getattr(self, field.name), getattr(solutions, field.name)
@@ -111,12 +111,12 @@ class Solutions:
                 value[programs] = replacement
 
 
-def joined(parts: Sequence[Any], order: np.ndarray) -> Any:
+def side_by_side(parts: Sequence[Any], order: np.ndarray) -> Any:
     """Solutions of one kind side by side, then in an order of all programs."""
     if isinstance(parts[0], np.ndarray):
         return np.concatenate(parts)[order]
     names = [field.name for field in fields(parts[0])]
-    return type(parts[0])(*(joined([getattr(part, name) for part in parts], order) for name in names))
+    return type(parts[0])(*(side_by_side([getattr(part, name) for part in parts], order) for name in names))
 
 
 def evaluated(statement: Statement, u: Complex) -> ConeSolution:

@@ -29,7 +29,7 @@ class _State(NamedTuple):
     motor: int
 
 
-def chosen(request: RatingRequest, rated: Rated) -> RatingAnswer:
+def with_choice(request: RatingRequest, rated: Rated) -> RatingAnswer:
     """The rating with rods and motor from the tables of the request.
 
     Raises
@@ -87,12 +87,12 @@ def _rods(request: RatingRequest, now: tuple[int, ...], loads: Sequence[float]) 
     """The thinnest that bear these forces [N], none thinner than now."""
     refuse(_too_weak(request, loads))
     return tuple(
-        k if stage.piston_rod_diameter_m is not None else max(k, _first_that_bears(request.piston_rods, load))
+        k if stage.piston_rod_diameter_m is not None else max(k, _smallest_rod(request.piston_rods, load))
         for stage, k, load in zip(request.stages, now, loads, strict=True)
     )
 
 
-def _first_that_bears(table: Sequence[PistonRod], load: float) -> int:
+def _smallest_rod(table: Sequence[PistonRod], load: float) -> int:
     return next(k for k, rod in enumerate(table) if rod.largest_force_N >= load)
 
 

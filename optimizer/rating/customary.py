@@ -2,7 +2,7 @@
 
 from collections.abc import Iterator, Sequence
 
-from optimizer.rating.built import StageBuilt
+from optimizer.rating.actual_stage import ActualStage
 from optimizer.rating.curves import discharge_losses, suction_losses, temperature_coefficients
 from optimizer.rating.design import StageDesign
 from optimizer.rating.losses import mean_piston_speed
@@ -22,10 +22,10 @@ SPEED_TOLERANCE = 0.01
 
 
 def stage_warnings(
-    request: RatingRequest, designs: Sequence[StageDesign], built: Sequence[StageBuilt], gas_loads: Sequence[float]
+    request: RatingRequest, designs: Sequence[StageDesign], actuals: Sequence[ActualStage], gas_loads: Sequence[float]
 ) -> Iterator[RatingWarning]:
     """Warnings about single stages; ``gas_loads`` [N] are their largest gas forces."""
-    for i, (plan, actual) in enumerate(zip(designs, built, strict=True)):
+    for i, (plan, actual) in enumerate(zip(designs, actuals, strict=True)):
         number = i + 1
         temperature, limit = actual.in_cylinder.discharge_temperature_K, request.discharge_temperature_limit_K
         if temperature > limit:

@@ -2,8 +2,8 @@
 
 from collections.abc import Sequence
 
-from optimizer.rating.built import StageBuilt, build, piston_speed
-from optimizer.rating.choice import chosen
+from optimizer.rating.actual_stage import ActualStage, build, piston_speed
+from optimizer.rating.choice import with_choice
 from optimizer.rating.curves import (
     REQUEST,
     TEMPERATURE_SOURCE,
@@ -34,17 +34,17 @@ def rate(request: RatingRequest) -> RatingAnswer:
     entries = [stage.piston_rod_diameter_m for stage in request.stages]
     diameters = [diameter for diameter in entries if diameter is not None]
     if request.motors or len(diameters) < len(entries):
-        return chosen(request, _rated)
+        return with_choice(request, _rated)
     return _rated(request, diameters)
 
 
 def _rated(request: RatingRequest, rods: Sequence[float]) -> RatingAnswer:
     """The machine at the speed of the request, with piston rods of these diameters [m]."""
     designs = design(request, rods)
-    built = build(request, designs)
-    stages = tuple(_stage(request, stage_design, actual) for stage_design, actual in zip(designs, built, strict=True))
+    actuals = build(request, designs)
+    stages = tuple(_stage(request, stage_design, actual) for stage_design, actual in zip(designs, actuals, strict=True))
     capacity = suction_flow(
-        built[0].size.swept_volume_m3, request.speed_rpm, built[0].coefficients.delivery
+        actuals[0].size.swept_volume_m3, request.speed_rpm, actuals[0].coefficients.delivery
     ) / suction_per_capacity(request)
     share = capacity / request.capacity_m3_per_min
     gas = [stage.actual_loads for stage in stages]
@@ -64,11 +64,11 @@ def _rated(request: RatingRequest, rods: Sequence[float]) -> RatingAnswer:
         indicated_power_W=indicated,
         shaft_power_W=shaft,
         motor_power_W=motor,
-        warnings=(*stage_warnings(request, designs, built, loads), *machine_warnings(request, share, motor)),
+        warnings=(*stage_warnings(request, designs, actuals, loads), *machine_warnings(request, share, motor)),
     )
 
 
-def _stage(request: RatingRequest, design: StageDesign, actual: StageBuilt) -> StageRating:
+def _stage(request: RatingRequest, design: StageDesign, actual: ActualStage) -> StageRating:
     stage, nominal, inside = design.stage, design.nominal, actual.in_cylinder
     ambient = request.ambient_pressure_Pa
     return StageRating(
@@ -120,7 +120,7 @@ def _sources(request: RatingRequest, stage: CompressionStage) -> CoefficientSour
     )
 
 
-def _cylinder(request: RatingRequest, design: StageDesign, actual: StageBuilt) -> Cylinder:
+def _cylinder(request: RatingRequest, design: StageDesign, actual: ActualStage) -> Cylinder:
     """One cylinder as a row of a machine takes it: pressures in the cylinder, exponents of the thermal design."""
     return Cylinder(
         bore_m=actual.size.bore_m,

@@ -49,21 +49,21 @@ class Cells(NamedTuple):
             parts=np.einsum("nrk,pki->npri", self.parts, shift).reshape(-1, *self.parts.shape[1:]),
         )
 
-    def turned(self) -> "Cells":
+    def direction_halves(self) -> "Cells":
         """Each in halves of its directions."""
         again = self.subset(np.repeat(np.arange(self.member.size), _DIRECTIONS))
         width = 0.5 * again.width
         side = np.tile([-1.0, 1.0], self.member.size)
         return again._replace(towards=again.towards + side * width, width=width)
 
-    def decided(self, seen: "Seen") -> "Cells":
+    def decided(self, bounds: "CellBounds") -> "Cells":
         """With every sign of the masses that are still open, each for all directions."""
-        count = np.count_nonzero(seen.open, axis=-1)
+        count = np.count_nonzero(bounds.open, axis=-1)
         again = self.subset(np.repeat(np.arange(self.member.size), 2**count))
         first = np.cumsum(2**count) - 2**count
         # the numbers from 0 of the ways, as signs of the rows that are open
         way = (np.arange(again.member.size) - np.repeat(first, 2**count))[:, None]
-        open_, sign = (np.repeat(array, 2**count, axis=0) for array in (seen.open, seen.signs))
+        open_, sign = (np.repeat(array, 2**count, axis=0) for array in (bounds.open, bounds.signs))
         digit = np.where(open_, np.cumsum(open_, axis=-1) - 1, 0)
         signs = np.where(open_, 2.0 * (way >> digit & 1) - 1.0, sign)
         return again._replace(
@@ -76,7 +76,7 @@ class Cells(NamedTuple):
         )
 
 
-class Seen(NamedTuple):
+class CellBounds(NamedTuple):
     """What is known of cells."""
 
     most: Real
@@ -98,7 +98,7 @@ def worst_masses(value: Complex, parts: Complex) -> Real:
     return _along(parts, value + np.sum(signs * parts, axis=-1))
 
 
-def look(cells: Cells) -> Seen:
+def look(cells: Cells) -> CellBounds:
     """What cells come to at most, and what they are known to reach."""
     middle = cells.parts[..., 0]
     size, reach = np.abs(middle), np.sum(np.abs(cells.parts[..., 1:]), axis=-1) + cells.rests
@@ -108,28 +108,28 @@ def look(cells: Cells) -> Seen:
     signs = np.where(certain, np.sign(along), 0.0)
     # what rows of either sign may come to, along the directions of the cell and along any
     loose = np.where(certain, 0.0, np.minimum(size + reach, np.abs(along) + turning + reach))
-    any_way = np.sum(np.where(certain, 0.0, size + reach), axis=-1)
+    undirected = np.sum(np.where(certain, 0.0, size + reach), axis=-1)
     whole = cells.cubic + np.sum(signs[..., None] * cells.parts, axis=1)
     rest = cells.rest + np.sum(np.where(certain, cells.rests, 0.0), axis=-1)
     largest = np.sqrt(np.maximum(np.max(bernstein(squared(whole)), axis=-1), 0.0))
-    moved = np.sum(np.abs(whole[:, 1:]), axis=-1) + rest
-    towards, width, beside = _directions(cells, whole[:, 0], moved, moved + any_way)
+    travel = np.sum(np.abs(whole[:, 1:]), axis=-1) + rest
+    towards, width, beside = _directions(cells, whole[:, 0], travel, travel + undirected)
     most = largest * np.cos(np.minimum(beside, 0.5 * np.pi)) + rest + np.sum(loose, axis=-1)
     rounding = ANGLE_ROUNDING * np.abs(whole[:, 1]) / cells.half
     most += rounding
     free = ~certain & (size + reach > 0.0)
     by_direction = np.sum(np.where(free, turning, 0.0), axis=-1) > np.sum(np.where(free, reach, 0.0), axis=-1)
-    held = np.where(width >= 0.0, most, -np.inf)
-    return Seen(held, rounding, by_direction, rest, towards, width, free, signs, *_attained(cells, signs))
+    upper = np.where(width >= 0.0, most, -np.inf)
+    return CellBounds(upper, rounding, by_direction, rest, towards, width, free, signs, *_attained(cells, signs))
 
 
-def _directions(cells: Cells, centre: Complex, moved: Real, off: Real) -> tuple[Real, Real, Real]:
+def _directions(cells: Cells, centre: Complex, travel: Real, off: Real) -> tuple[Real, Real, Real]:
     """Middle and half width of the directions of a cell that a peak in it can have, and how far they are beside the
     vectors of the rows that are certain; a negative width where there are none.
 
     Parameters
     ----------
-    centre : (n,) about which the vectors of these rows are no farther than ``moved``, and those of all than ``off``.
+    centre : (n,) about which the vectors of these rows are no farther than ``travel``, and those of all than ``off``.
     """
     size = np.abs(centre)
 
@@ -138,11 +138,11 @@ def _directions(cells: Cells, centre: Complex, moved: Real, off: Real) -> tuple[
         ratio = np.where(inside, radius / np.where(inside, size, 1.0), 0.0)
         return np.where(inside, np.arcsin(ratio), np.pi)
 
-    def wrapped(angle: Real) -> Real:
+    def principal(angle: Real) -> Real:
         return np.remainder(angle + np.pi, 2.0 * np.pi) - np.pi
 
-    apart = wrapped(np.angle(centre) - cells.towards)
-    beside = np.maximum(np.abs(apart) - cells.width - spread(moved), 0.0)
+    apart = principal(np.angle(centre) - cells.towards)
+    beside = np.maximum(np.abs(apart) - cells.width - spread(travel), 0.0)
     reach = spread(off)
     # where both ranges are short enough to meet once
     once = cells.width + reach < np.pi
@@ -159,14 +159,14 @@ def _attained(cells: Cells, signs: Real) -> tuple[Real, Real, Real]:
     parts = np.einsum("nrk,pk->nrp", cells.parts, _POWERS)
     places = []
     for k in range(_PLACES.size):
-        chosen = np.where(signs != 0.0, signs, worst_masses(curve[:, k], parts[..., k]))
-        value = np.abs(curve[:, k] + np.sum(chosen * parts[..., k], axis=-1))
-        places.append((value, chosen))
-    value, chosen = (np.stack(array) for array in zip(*places, strict=True))
+        trial_signs = np.where(signs != 0.0, signs, worst_masses(curve[:, k], parts[..., k]))
+        value = np.abs(curve[:, k] + np.sum(trial_signs * parts[..., k], axis=-1))
+        places.append((value, trial_signs))
+    value, trial_signs = (np.stack(array) for array in zip(*places, strict=True))
     best = np.argmax(value, axis=0)
     every = np.arange(best.size)
     rest = cells.rest + np.sum(cells.rests, axis=-1)
-    there = np.where(cells.signs != 0.0, cells.signs, chosen[best, every])
+    there = np.where(cells.signs != 0.0, cells.signs, trial_signs[best, every])
     return value[best, every] - rest, cells.centre + _PLACES[best] * cells.half, there
 
 

@@ -111,11 +111,11 @@ class _ComponentParts:
         cubic = self.parts.cubics(curve + self.curve.number, piece, centre, half)
         rest = self.parts.fourth(curve + self.curve.number, piece) * half[:, None] ** 4
         # pieces without width hold nothing
-        return self._moved(cubic, rest, centre, half)[1] / np.where(half > 0.0, half, 1.0)[:, None] ** 4
+        return self._in_motion(cubic, rest, centre, half)[1] / np.where(half > 0.0, half, 1.0)[:, None] ** 4
 
     def cubics(self, curve: Index, piece: Index, centre: Real, half: Real) -> Complex:
         cubic = self.parts.cubics(curve + self.curve.number, piece, centre, half)
-        return self._moved(cubic, np.zeros(cubic.shape[:-1]), centre, half)[0]
+        return self._in_motion(cubic, np.zeros(cubic.shape[:-1]), centre, half)[0]
 
     def values(self, curve: Index, piece: Index, angle: Real) -> Complex:
         return self.axis.along(self.parts.values(curve + self.curve.number, piece, angle), angle[:, None])
@@ -123,8 +123,8 @@ class _ComponentParts:
     def at(self, curve: int, angle: Real) -> Complex:
         return self.axis.along(self.parts.at(curve + self.curve.number, angle), angle[:, None])
 
-    def _moved(self, cubic: Complex, rest: Real, centre: Real, half: Real) -> tuple[Complex, Real]:
+    def _in_motion(self, cubic: Complex, rest: Real, centre: Real, half: Real) -> tuple[Complex, Real]:
         """Cubics (m, R, 4) and what they leave out (m, R), of vectors about centres (m,)."""
         wide = (np.repeat(array, rest.shape[-1]) for array in (centre, half))
-        along, left = self.curve.moved(cubic.reshape(-1, 4), rest.reshape(-1), *wide)
+        along, left = self.curve.in_motion(cubic.reshape(-1, 4), rest.reshape(-1), *wide)
         return along.reshape(cubic.shape), left.reshape(rest.shape)

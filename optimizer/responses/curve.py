@@ -18,7 +18,7 @@ import numpy as np
 from optimizer.numerics.arrays import Complex, Real, Reals, in_order
 from optimizer.numerics.records import record
 from optimizer.responses.floors import Floor, Floors
-from optimizer.responses.moving_curves import Harmonics, moved
+from optimizer.responses.moving_curves import Harmonics, with_harmonics
 from optimizer.responses.piecewise_cubics import Bracket, Index, Pieces
 from optimizer.responses.worst_masses import Parts
 
@@ -167,7 +167,7 @@ def peaks_about(
     if group is None and all(response.curves is first for response in responses):
         # as mostly: there is nothing to be put together
         return first.pieces.peaks(offset, tolerance, number)
-    tolerances, sought = (
+    tolerances, owner = (
         np.broadcast_to(tolerance, len(responses)),
         np.arange(len(responses)) if group is None else group,
     )
@@ -175,17 +175,19 @@ def peaks_about(
     for k, response in enumerate(responses):
         together.setdefault(id(response.curves), []).append(k)
     groups, brackets = [], []
-    for some in together.values():
-        labels, of = np.unique(sought[some], return_inverse=True)
+    for numbers in together.values():
+        labels, of = np.unique(owner[numbers], return_inverse=True)
         groups.append(labels)
-        brackets.append(responses[some[0]].curves.pieces.peaks(offset[some], tolerances[some], number[some], of))
+        brackets.append(
+            responses[numbers[0]].curves.pieces.peaks(offset[numbers], tolerances[numbers], number[numbers], of)
+        )
     order = np.argsort(np.concatenate(groups))
     return Bracket(*(np.concatenate(part)[order] for part in zip(*brackets, strict=True)))
 
 
 def _moving(response: TurnResponse, by: Harmonics, tolerance: Reals) -> Bracket:
     """Peak (1,) of a curve to which counterweights add what turns; its value is that without them all the same."""
-    brackets = moved(response.curves.pieces, response.number, by).peaks(np.zeros(1, dtype=complex), tolerance)
+    brackets = with_harmonics(response.curves.pieces, response.number, by).peaks(np.zeros(1, dtype=complex), tolerance)
     return brackets._replace(value=brackets.value - by.at(brackets.angle))
 
 

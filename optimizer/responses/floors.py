@@ -27,10 +27,12 @@ class Floors(NamedTuple):
     angle: Real  # (J, 3) rad, of the points that hold a circle, as many as there are
     value: Complex  # (J, 3)
     weights: Real  # (J, 3)
-    held: NDArray[np.intp]  # (J,) how many
+    counts: NDArray[np.intp]  # (J,) how many
 
     def floor(self, number: int) -> Floor:
         """That of one curve, with the points that hold its circle."""
-        some = np.arange(self.held[number])
-        circle = Circle(complex(self.centre[number]), float(self.radius[number]), some, self.weights[number, some])
-        return Floor(circle, self.angle[number, some], self.value[number, some], self.upper[number])
+        support = np.arange(self.counts[number])
+        circle = Circle(
+            complex(self.centre[number]), float(self.radius[number]), support, self.weights[number, support]
+        )
+        return Floor(circle, self.angle[number, support], self.value[number, support], self.upper[number])

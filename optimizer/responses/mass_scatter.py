@@ -6,7 +6,7 @@ import numpy as np
 
 from optimizer.numerics.arrays import Complex, Real
 from optimizer.responses.curve import TurnResponse
-from optimizer.responses.moving_curves import moved
+from optimizer.responses.moving_curves import with_harmonics
 from optimizer.responses.worst_masses import Worst, worst_peaks
 
 
@@ -41,6 +41,6 @@ def _peaks(responses: Sequence[TurnResponse], share: float, unbalance: Complex, 
         offset = np.array([response.offset(unbalance) for response in responses], dtype=complex)
         return worst_peaks(first.curves.pieces, first.curves.parts, share, offset, number, tolerance)
     assert first.number == 0  # a component is the only one of its curves
-    pieces, still = moved(first.curves.pieces, 0, by), np.zeros(1, dtype=complex)
+    pieces, still = with_harmonics(first.curves.pieces, 0, by), np.zeros(1, dtype=complex)
     brackets = worst_peaks(pieces, first.curves.parts, share, still, number, tolerance)
     return brackets._replace(value=brackets.value - by.at(brackets.angle))

@@ -74,7 +74,7 @@ class MovingCurve:
         )
         return Motion(self.number, unit, sense, times, size[None], self.harmonics.scalar)
 
-    def moved(self, cubic: Complex, rest: Real, centre: Real, half: Real) -> tuple[Complex, Real]:
+    def in_motion(self, cubic: Complex, rest: Real, centre: Real, half: Real) -> tuple[Complex, Real]:
         """Cubics (m, 4) of the curve in motion and what they leave out (m,), from those of the source."""
         from optimizer.responses.kernel.motion import in_motion
 
@@ -86,20 +86,20 @@ class MovingCurve:
 
     def cubics(self, curve: Index, piece: Index, centre: Real, half: Real) -> Complex:
         cubic = self.source.cubics(curve + self.number, piece, centre, half)
-        return self.moved(cubic, np.zeros(len(cubic)), centre, half)[0]
+        return self.in_motion(cubic, np.zeros(len(cubic)), centre, half)[0]
 
     def values(self, curve: Index, piece: Index, angle: Real) -> Complex:
-        return self._seen(self.source.values(curve + self.number, piece, angle), angle)
+        return self._along_axis(self.source.values(curve + self.number, piece, angle), angle)
 
     def search(self, cubics: "Cubics", members: "Members", best: "Best", motion: "Motion | None" = None) -> Complex:
         assert motion is None  # what moves is brought into another motion as one
-        return self._seen(self.source.search(cubics, members, best, self.motion), best.angle)
+        return self._along_axis(self.source.search(cubics, members, best, self.motion), best.angle)
 
     def circles(self, cubics: "Cubics", members: "Members", motion: "Motion | None" = None) -> Floors:
         assert motion is None  # as above
         return self.source.circles(cubics, members, self.motion)
 
-    def _seen(self, values: Complex, angle: Real) -> Complex:
+    def _along_axis(self, values: Complex, angle: Real) -> Complex:
         if self.axis is not None:
             values = self.axis.along(values, angle)
         return values if self.harmonics is None else values + self.harmonics.at(angle)
@@ -110,7 +110,7 @@ def along(pieces: Pieces, number: int, axis: Axis) -> Pieces:
     return _pieces(pieces, number, MovingCurve(pieces.source, number, axis))
 
 
-def moved(pieces: Pieces, number: int, by: Harmonics) -> Pieces:
+def with_harmonics(pieces: Pieces, number: int, by: Harmonics) -> Pieces:
     """One of some curves with harmonics added, as the only one."""
     first = _pieces(pieces, number, MovingCurve(pieces.source, number, harmonics=by))
     source = pieces.source
@@ -122,5 +122,5 @@ def moved(pieces: Pieces, number: int, by: Harmonics) -> Pieces:
 
 def _pieces(pieces: Pieces, number: int, source: MovingCurve) -> Pieces:
     centre, half = pieces.centre[number], pieces.half[number]
-    cubic, rest = source.moved(pieces.cubic[number], pieces.rest[number], centre, half)
+    cubic, rest = source.in_motion(pieces.cubic[number], pieces.rest[number], centre, half)
     return Pieces(centre[None], half[None], cubic[None], rest[None], pieces.size[number : number + 1], source)

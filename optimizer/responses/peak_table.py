@@ -31,7 +31,7 @@ class PeakList(NamedTuple):
         """Some of the peaks."""
         return PeakList(self.lower[rows], self.upper[rows], self.angle_deg[rows])
 
-    def turned(self, places: Sequence[int], earlier_deg: Sequence[float]) -> "PeakList":
+    def at_places(self, places: Sequence[int], earlier_deg: Sequence[float]) -> "PeakList":
         """These peaks at several places, as many degrees earlier, of a curve that repeats after 360."""
         lower, upper, angle = ([values[place] for place in places] for values in self)
         return PeakList(lower, upper, [(at - ahead) % 360.0 for at, ahead in zip(angle, earlier_deg, strict=True)])
@@ -59,7 +59,7 @@ class PeakTable:
         self._brackets.append(brackets)
         angle, _, lower, upper = brackets
         self._lists.append(PeakList(lower.tolist(), upper.tolist(), np.rad2deg(angle).tolist()))
-        self._places.update((name, (number, some)) for name, some in rows.items())
+        self._places.update((name, (number, place)) for name, place in rows.items())
 
     def clear(self) -> None:
         """Of other counterweights there may be others."""

@@ -140,22 +140,22 @@ class Pieces:
             share[:] = tolerance
             if not magnitudes:
                 signs[:] = sign
-            return _bracketed(self, offset, of_member, every, scale, share, signs, magnitudes)
-        sought = every if group is None else group
-        count = int(np.maximum.reduce(sought, initial=-1)) + 1
+            return _brackets(self, offset, of_member, every, scale, share, signs, magnitudes)
+        owner = every if group is None else group
+        count = int(np.maximum.reduce(owner, initial=-1)) + 1
         scale, share, signs = np.zeros(count), np.zeros(count), np.zeros(count)
         if not all_true(finite):
-            offset, of_member, sought = offset[finite], of_member[finite], sought[finite]
+            offset, of_member, owner = offset[finite], of_member[finite], owner[finite]
             tolerance, sign = (part[finite] if isinstance(part, np.ndarray) else part for part in (tolerance, sign))
-        np.maximum.at(scale, sought, self.size[of_member] + np.abs(offset))
+        np.maximum.at(scale, owner, self.size[of_member] + np.abs(offset))
         if isinstance(tolerance, np.ndarray):
-            np.maximum.at(share, sought, tolerance)
+            np.maximum.at(share, owner, tolerance)
         else:
-            share[sought] = tolerance
-        signs[sought] = sign
-        some = np.zeros(scale.size, dtype=bool)
-        some[sought] = True
-        return _bracketed(self, offset, of_member, sought, scale, share, signs, magnitudes).where(some)
+            share[owner] = tolerance
+        signs[owner] = sign
+        mask = np.zeros(scale.size, dtype=bool)
+        mask[owner] = True
+        return _brackets(self, offset, of_member, owner, scale, share, signs, magnitudes).where(mask)
 
 
 # it loads the compiler, and so at the first call; an import at each takes as long as a small array
@@ -166,7 +166,7 @@ def _parts() -> ModuleType:
     return parts
 
 
-def _bracketed(
+def _brackets(
     pieces: Pieces,
     offset: Vector,
     of_member: Index,

@@ -66,9 +66,9 @@ class Phasors:
         -------
         (..., n) complex.
         """
-        return self.of_turned(np.exp(1j * order * angle_rad))
+        return self.of_rotation(np.exp(1j * order * angle_rad))
 
-    def of_turned(self, unit: Complex) -> Complex:
+    def of_rotation(self, unit: Complex) -> Complex:
         """The same (..., n) where a shaft that turned as often as they do points along unit vectors (..., n)."""
         return self.co[..., None] * unit + self.counter[..., None] * np.conj(unit)
 
@@ -147,11 +147,11 @@ class Response:
             return self
         return replace(self, baseline=Phasors(self.baseline.co, np.conj(self.baseline.counter)))
 
-    def over_turn(self, unbalance: Complex, turned_rad: Real) -> Complex:
+    def over_turn(self, unbalance: Complex, angle_rad: Real) -> Complex:
         """Response with counterweights while the shaft turns (..., n).
 
         Parameters
         ----------
-        turned_rad : (..., n) how far the shaft has turned.
+        angle_rad : (..., n) how far the shaft has turned.
         """
-        return self.to(unbalance).at(self.sense * turned_rad, self.order)
+        return self.to(unbalance).at(self.sense * angle_rad, self.order)

@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from optimizer.numerics.arrays import Complex, Real
-from optimizer.responses.boxes import Cells, Seen, look
+from optimizer.responses.boxes import CellBounds, Cells, look
 from optimizer.responses.piecewise_cubics import ROUNDING, Index, Pieces
 
 #: what may hold a peak is cut into so many parts of its angle, or expanded anew
@@ -95,10 +95,10 @@ class _Boxes(NamedTuple):
     """Cells, and what is known of them."""
 
     cells: Cells
-    seen: Seen
+    bounds: CellBounds
 
     def subset(self, keep: NDArray[np.bool_]) -> "_Boxes":
-        return _Boxes(self.cells.subset(keep), Seen._make(boxes[keep] for boxes in self.seen))
+        return _Boxes(self.cells.subset(keep), CellBounds._make(boxes[keep] for boxes in self.bounds))
 
 
 class _Search:
@@ -126,7 +126,7 @@ class _Search:
             # whatever is left may hold a peak as large as it is known to come to at most
             most = self.best.upper.copy()
             for boxes in (left, *self.later):
-                np.maximum.at(most, boxes.cells.member, boxes.seen.most)
+                np.maximum.at(most, boxes.cells.member, boxes.bounds.most)
             proven = np.minimum(proven, most)
             if left.cells.member.size or not any(boxes.cells.member.size for boxes in self.later):
                 break
@@ -142,41 +142,41 @@ class _Search:
     def _still_open(self, cells: Cells) -> _Boxes:
         """Those that may hold a peak above the best found, theirs included. Of the others those that may hold one by
         finer brackets wait for these, and the rest is told in the bracket."""
-        seen = look(cells)
-        _keep(self.best, cells, seen)
-        boxes = _Boxes(cells._replace(towards=seen.towards, width=seen.width), seen)
+        bounds = look(cells)
+        _keep(self.best, cells, bounds)
+        boxes = _Boxes(cells._replace(towards=bounds.towards, width=bounds.width), bounds)
         # a peak at a jump of gas forces is steep on one side: what rounding of its angle leaves stays open for ever
-        least = seen.most - seen.rounding
+        least = bounds.most - bounds.rounding
         now, ever = (least > self._above(level)[cells.member] for level in (self.level, 0.0))
-        np.maximum.at(self.best.upper, cells.member[~ever], seen.most[~ever])
+        np.maximum.at(self.best.upper, cells.member[~ever], bounds.most[~ever])
         self.later.append(boxes.subset(ever & ~now))
         return boxes.subset(now)
 
     def _ways(self, boxes: _Boxes) -> tuple[NDArray[np.bool_], ...]:
         """Which cells are expanded anew, have few signs that are tried, and are cut by direction and by angle."""
-        cells, seen = boxes
+        cells, bounds = boxes
         narrow = self._above(self.level) - self.best.lower
-        coarse = seen.rest > _ENOUGH * narrow[cells.member]
-        free = np.count_nonzero(seen.open, axis=-1)
+        coarse = bounds.rest > _ENOUGH * narrow[cells.member]
+        free = np.count_nonzero(bounds.open, axis=-1)
         few = ~coarse & (free > 0) & (free <= _FEW)
-        turn = ~coarse & ~few & seen.by_direction
+        turn = ~coarse & ~few & bounds.by_direction
         return coarse, few, turn, ~(coarse | few | turn)
 
     def _afforded(self, boxes: _Boxes) -> bool:
         """Count what one more round makes; False where that is too much."""
         coarse, few, turn, cut = self._ways(boxes)
-        free = np.count_nonzero(boxes.seen.open[few], axis=-1)
-        made = _FINER * np.sum(coarse) + np.sum(2**free) + 2 * np.sum(turn) + _PARTS * np.sum(cut)
-        self.spent += int(made) * boxes.cells.parts[0].size
+        free = np.count_nonzero(boxes.bounds.open[few], axis=-1)
+        count = _FINER * np.sum(coarse) + np.sum(2**free) + 2 * np.sum(turn) + _PARTS * np.sum(cut)
+        self.spent += int(count) * boxes.cells.parts[0].size
         self.rounds += 1
         return self.spent <= _MOST_NUMBERS and self.rounds < _MOST_ROUNDS
 
     def _finer(self, boxes: _Boxes) -> Cells:
         cells, (coarse, few, turn, cut) = boxes.cells, self._ways(boxes)
         finer = self._still_open(cells.subset(coarse).cut(_FINER)).cells
-        decided = cells.subset(few).decided(boxes.subset(few).seen)
-        turned = cells.subset(turn).turned()
-        return _together([self._expanded(finer), decided, turned, cells.subset(cut).cut(_PARTS)])
+        decided = cells.subset(few).decided(boxes.subset(few).bounds)
+        halves = cells.subset(turn).direction_halves()
+        return _together([self._expanded(finer), decided, halves, cells.subset(cut).cut(_PARTS)])
 
     def _expanded(self, cells: Cells) -> Cells:
         """By polynomials of their own."""
@@ -223,13 +223,13 @@ def _first(
     return best, cells
 
 
-def _keep(best: _Best, cells: Cells, seen: Seen) -> None:
+def _keep(best: _Best, cells: Cells, bounds: CellBounds) -> None:
     """Keep the largest value for each peak where it beats the best."""
-    order = np.argsort(seen.lower, kind="stable")
+    order = np.argsort(bounds.lower, kind="stable")
     largest = np.full(best.lower.size, -1, dtype=np.intp)
     largest[cells.member[order]] = order  # of several for one peak the last counts
-    some = np.flatnonzero(largest >= 0)
-    better = some[seen.lower[largest[some]] > best.lower[some]]
+    peaks = np.flatnonzero(largest >= 0)
+    better = peaks[bounds.lower[largest[peaks]] > best.lower[peaks]]
     new = largest[better]
-    best.lower[better], best.angle[better] = seen.lower[new], seen.angle[new]
-    best.piece[better], best.signs[better] = cells.piece[new], seen.there[new]
+    best.lower[better], best.angle[better] = bounds.lower[new], bounds.angle[new]
+    best.piece[better], best.signs[better] = cells.piece[new], bounds.there[new]

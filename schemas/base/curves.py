@@ -111,18 +111,18 @@ class Curve(Sequence[_Number]):
     @classmethod
     def __get_pydantic_core_schema__(cls, source: Any, handler: GetCoreSchemaHandler) -> CoreSchema:
         number = next(iter(get_args(source)), float)
-        listed = handler.generate_schema(GenericAlias(tuple, (number, ...)))
+        series_schema = handler.generate_schema(GenericAlias(tuple, (number, ...)))
         # what is text in JSON alone stays as it is elsewhere, and is not looked through
         stays = core_schema.any_schema(serialization=core_schema.to_string_ser_schema(when_used="json"))
         content, numbers, jsonable = (
             core_schema.plain_serializer_function_ser_schema(tuple, return_schema=stays),
-            core_schema.plain_serializer_function_ser_schema(tuple, return_schema=listed),
+            core_schema.plain_serializer_function_ser_schema(tuple, return_schema=series_schema),
             core_schema.plain_serializer_function_ser_schema(tuple, when_used="json"),
         )
         return core_schema.json_or_python_schema(
-            core_schema.no_info_after_validator_function(cls, {**listed, "serialization": numbers}),
+            core_schema.no_info_after_validator_function(cls, {**series_schema, "serialization": numbers}),
             core_schema.no_info_wrap_validator_function(
-                _read, {**listed, "serialization": content}, serialization=jsonable
+                _read, {**series_schema, "serialization": content}, serialization=jsonable
             ),
         )
 
@@ -161,13 +161,13 @@ def _curve(series: Any) -> Curve[Any]:
     return curve
 
 
-def _read(value: Any, listed: ValidatorFunctionWrapHandler) -> Curve[Any]:
+def _read(value: Any, handler: ValidatorFunctionWrapHandler) -> Curve[Any]:
     """A curve, or of an array or of numbers one; what is wrong with a number is said by its place."""
     if type(value) is Curve:
         return value
     series = _series(value)
     if series is None:
-        return Curve(listed(value.tolist() if _is_array(value) else value))
+        return Curve(handler(value.tolist() if _is_array(value) else value))
     return _curve(series)
 
 

@@ -152,9 +152,9 @@ def headings(models: Iterable[str]) -> dict[str, str]:
     """
     grouped = [GROUPS[model] for model in models if model in GROUPS]
     members: dict[str, list[str]] = {}
-    taken: set[str] = set()
+    names: set[str] = set()
     for groups in grouped:
         for heading, fields in groups.items():
-            members.setdefault(heading, []).extend(field for field in fields if field not in taken)
-            taken |= set(fields)
+            members.setdefault(heading, []).extend(field for field in fields if field not in names)
+            names |= set(fields)
     return {field: heading for heading, fields in members.items() for field in fields}

@@ -22,7 +22,7 @@ _ANY_TYPE = ("enum", "const")
 _NULL = "null"
 
 
-def hinted(model: type, schema: Schema) -> None:
+def add_hints(model: type, schema: Schema) -> None:
     """Add to the schema of a model what a form needs; models without fields have none of it."""
     if "properties" not in schema:
         return
@@ -49,18 +49,18 @@ def _in_groups(fields: list[str], heading: dict[str, str]) -> list[str]:
         if name not in heading and before in heading:
             heading[name] = heading[before]
     groups = list(dict.fromkeys(heading.values()))
-    listed = sorted((name for name in heading if name in fields), key=lambda name: groups.index(heading[name]))
-    return listed + [name for name in fields if name not in heading]
+    names = sorted((name for name in heading if name in fields), key=lambda name: groups.index(heading[name]))
+    return names + [name for name in fields if name not in heading]
 
 
 def _condition(schema: Schema) -> None:
     """Of fields that go together, the usual ones are required unless others are there: alternatives of a whole model
     would be a choice in a form, and no type at all in languages.
     """
-    usual, *others = schema.get("anyOf", [{}])
-    if others:
+    usual, *alternatives = schema.get("anyOf", [{}])
+    if alternatives:
         del schema["anyOf"]
-        schema |= {"if": {"not": {"anyOf": others}}, "then": usual}
+        schema |= {"if": {"not": {"anyOf": alternatives}}, "then": usual}
 
 
 def _unit(node: Any) -> Schema:
@@ -89,14 +89,14 @@ def _collapsed(node: Schema) -> Schema:
         return node | inner
     own = {key: value for key, value in node.items() if key not in ("anyOf", "oneOf")} | inner
     plain = sorted((option for option in options if _plain(option)), key=lambda option: _TYPES.index(option["type"]))
-    others = [option for option in options if not _plain(option)]
-    if not others and _joinable(plain):
-        return own | _joined(plain)
+    rest = [option for option in options if not _plain(option)]
+    if not rest and _joinable(plain):
+        return own | _union(plain)
     null = [{"type": _NULL, "title": "None"}] if any(option["type"] == _NULL for option in plain) else []
     values = [option for option in plain if option["type"] != _NULL]
     if _joinable(values):
-        values = [{**_joined(values), "title": "One value"}]
-    return {**own, "anyOf": [*values, *others, *null]}
+        values = [{**_union(values), "title": "One value"}]
+    return {**own, "anyOf": [*values, *rest, *null]}
 
 
 def _options(node: Schema) -> Iterator[Schema]:
@@ -121,11 +121,11 @@ def _joinable(options: list[Schema]) -> bool:
     return bool(options) and len(set(types)) == len(types) and not mixed
 
 
-def _joined(options: list[Schema]) -> Schema:
+def _union(options: list[Schema]) -> Schema:
     types = [option["type"] for option in options]
-    joined = {key: value for option in options for key, value in option.items() if key not in ("title", "description")}
+    union = {key: value for option in options for key, value in option.items() if key not in ("title", "description")}
     if _NULL in types:
-        values = joined.get("enum", [joined["const"]] if "const" in joined else None)
-        joined |= {} if values is None else {"enum": [*values, None]}
-        joined.pop("const", None)
-    return {**joined, "type": types if len(types) > 1 else types[0]}
+        values = union.get("enum", [union["const"]] if "const" in union else None)
+        union |= {} if values is None else {"enum": [*values, None]}
+        union.pop("const", None)
+    return {**union, "type": types if len(types) > 1 else types[0]}

@@ -46,8 +46,8 @@ def png(url: str) -> bytes:
     if colour not in _SAMPLES or (depth < 8 and colour not in (0, _PALETTE)):
         raise ValueError(colour)
     line = 1 + -(-width * depth * _SAMPLES[colour] // 8)
-    packed = b"".join(data for name, data in parts if name == b"IDAT")
-    pixels = zlib.decompressobj().decompress(packed, height * line + 1)
+    stream = b"".join(data for name, data in parts if name == b"IDAT")
+    pixels = zlib.decompressobj().decompress(stream, height * line + 1)
     if len(pixels) != height * line or max(pixels[::line]) > _FILTERS:
         raise ValueError(len(pixels))
     # a pixel may name no colour beyond the palette

@@ -28,11 +28,11 @@ def or_mapping(
         function: Callable[Concatenate[Request, Rest], Answer],
     ) -> Callable[Concatenate[Request | Mapping[str, Any], Rest], Answer]:
         @wraps(function)
-        def checked(request: Request | Mapping[str, Any], /, *rest: Rest.args, **named: Rest.kwargs) -> Answer:
+        def wrapper(request: Request | Mapping[str, Any], /, *rest: Rest.args, **options: Rest.kwargs) -> Answer:
             # what is neither is refused by the model, in its words
             instance = request if isinstance(request, BaseModel) else model.model_validate(request)
-            return function(instance, *rest, **named)
+            return function(instance, *rest, **options)
 
-        return checked
+        return wrapper
 
     return decorated

@@ -7,8 +7,8 @@ from pydantic import BaseModel, ConfigDict, Field, GetCoreSchemaHandler, GetJson
 from pydantic.json_schema import JsonSchemaValue
 from pydantic_core import CoreSchema, PydanticCustomError, core_schema
 
-from schemas.base.form_hints import hinted
-from schemas.base.notebook import line, shown
+from schemas.base.form_hints import add_hints
+from schemas.base.notebook import html, line
 from schemas.base.version import package_version
 
 
@@ -36,12 +36,12 @@ class Model(BaseModel):
 
     @classmethod
     def __get_pydantic_json_schema__(cls, schema: CoreSchema, handler: GetJsonSchemaHandler) -> JsonSchemaValue:
-        made = handler(schema)
-        hinted(cls, handler.resolve_ref_schema(made))
-        return made
+        document = handler(schema)
+        add_hints(cls, handler.resolve_ref_schema(document))
+        return document
 
 
-class Shown(Model):
+class Displayable(Model):
     """What an answer consists of, or an answer: short in a terminal, tables in a notebook."""
 
     def __repr__(self) -> str:
@@ -52,10 +52,10 @@ class Shown(Model):
 
     def _repr_html_(self) -> str:
         """What a notebook shows."""
-        return shown(self)
+        return html(self)
 
 
-class Answer(Shown):
+class Answer(Displayable):
     """An answer of a computation, which says who computed it."""
 
     version: str = Field(

@@ -33,7 +33,7 @@ def _short(value: object) -> str:
     return f"{value:.6g}" if isinstance(value, float) else str(value)
 
 
-def shown(model: BaseModel) -> str:
+def html(model: BaseModel) -> str:
     """The answer as tables; what is null or empty is left out."""
     return f"<h4>{escape(type(model).__name__)}</h4>{_fields(model)}"
 

@@ -35,9 +35,9 @@ def when(condition: Schema, then: Schema, otherwise: Schema | None = None) -> li
     return [{"if": condition, "then": then, **({} if otherwise is None else {"else": otherwise})}]
 
 
-def either(first: str, *others: str) -> list[Schema]:
+def either(first: str, *rest: str) -> list[Schema]:
     """Where the first field is given, the others are not."""
-    return when(present(first), absent(*others))
+    return when(present(first), absent(*rest))
 
 
 def alternatives(first: str, second: str) -> list[Schema]:
@@ -50,6 +50,6 @@ def together(first: str, second: str) -> list[Schema]:
     return when(present(first), present(second), absent(second))
 
 
-def conditions(*listed: list[Schema]) -> Schema:
+def conditions(*lists: list[Schema]) -> Schema:
     """Of the configuration of a model: all of some conditions."""
-    return {"allOf": [condition for some in listed for condition in some]}
+    return {"allOf": [condition for part in lists for condition in part]}

@@ -17,9 +17,9 @@ class Uniform:
         return handler(source)
 
     def __get_pydantic_json_schema__(self, schema: CoreSchema, handler: GetJsonSchemaHandler) -> JsonSchemaValue:
-        made = dict(handler(schema))
-        first, *_ = made.pop("prefixItems")
-        return {**made, "items": first}
+        document = dict(handler(schema))
+        first, *_ = document.pop("prefixItems")
+        return {**document, "items": first}
 
 
 _Share = Annotated[float, Strict(), symmetric(1e9)]

@@ -5,19 +5,19 @@ from typing import Literal
 from pydantic import Field
 
 from schemas.answer.counterweights import Counterweight, FittedShaft
-from schemas.base.model import Model, Shown
+from schemas.base.model import Displayable, Model
 from schemas.base.quantities import Kilograms, NewtonMetres, Newtons
 
-Counted = Literal["weights", "part_numbers", "pieces", "sizes"]
+Countable = Literal["weights", "part_numbers", "pieces", "sizes"]
 #: as goals of an objective name what is counted
-PIECES: tuple[Counted, ...] = ("weights", "pieces")
+PIECES: tuple[Countable, ...] = ("weights", "pieces")
 Lessened = Literal["objective", "mass"]
 
 
 class CountTrade(Model):
     """How many counterweights, or different masses, against what they come to."""
 
-    of: Counted = Field(
+    of: Countable = Field(
         description="weights, or pieces: webs that have a counterweight; part_numbers, or sizes: different masses",
         examples=["weights"],
     )
@@ -75,13 +75,13 @@ class CountPoint(Model):
     method: str = Field(description="what found it", examples=["exhaustion in halves"])
 
 
-class CountFront(Shown):
+class CountFront(Displayable):
     """The same for every number, under one limit of the total mass."""
 
     max_total_mass_kg: Kilograms | None = Field(
         description="limit of the total mass of this front; null is none", examples=[None]
     )
-    of: Counted = Field(description="what is counted", examples=["weights"])
+    of: Countable = Field(description="what is counted", examples=["weights"])
     least: Lessened = Field(description="what is least at every number", examples=["objective"])
     status: Literal["optimal", "inaccurate", "infeasible"] = Field(
         description="optimal: every point is, or is proven infeasible; inaccurate: a point is not; infeasible: none"

@@ -12,7 +12,7 @@ from schemas.answer.infeasibility import Infeasibility
 from schemas.answer.limits import MachineLimit
 from schemas.answer.proof import EndMultipliers, Multipliers
 from schemas.answer.robust import WorstPeaks
-from schemas.base.model import Answer, Model, NotEmpty, Shown
+from schemas.base.model import Answer, Displayable, Model, NotEmpty
 from schemas.base.quantities import Count, Flag, Kilograms, Mass, Metres, Name, NewtonMetres, Newtons
 from schemas.base.rules import Rule, first_of
 from schemas.base.units import Unit, between
@@ -114,8 +114,8 @@ class ParetoRequest(OptimizeRequest):
         limited = any(getattr(self.objective, name) is not None for name in ceilings)
         message = "without a ceiling the minimum mass is 0: give at least one ceiling"
         yield Rule(counts.least == "mass" and not limited, ("counts", "least"), message)
-        ordered = bool(self.objective.priorities) and self.responses is None
-        yield Rule(ordered, ("objective", "priorities"), _NO_ORDER)
+        has_order = bool(self.objective.priorities) and self.responses is None
+        yield Rule(has_order, ("objective", "priorities"), _NO_ORDER)
 
     def _scatter_rules(self, tolerances: Tolerances) -> Iterator[Rule]:
         """What scatters with a choice is a term for each web of a response of the first order."""
@@ -294,7 +294,7 @@ class Ends(Model):
     )
 
 
-class ParetoFront(Shown):
+class ParetoFront(Displayable):
     """The front under one limit of the total mass."""
 
     max_total_mass_kg: Kilograms | None = Field(

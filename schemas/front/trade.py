@@ -6,7 +6,7 @@ from pydantic import Field
 
 from schemas.answer.counterweights import Counterweight, FittedShaft
 from schemas.answer.infeasibility import Infeasibility
-from schemas.base.model import Model, Shown
+from schemas.base.model import Displayable, Model
 from schemas.base.quantities import Kilograms, NewtonMetres, Newtons
 from schemas.base.responses import RESPONSES
 
@@ -111,7 +111,7 @@ class TradedPoint(Model):
     certificate: TradedCertificate = Field(description="the proof", examples=[{"relative_gap": 3e-7}])
 
 
-class TradedFront(Shown):
+class TradedFront(Displayable):
     """The trade-off under one limit of the total mass."""
 
     max_total_mass_kg: Kilograms | None = Field(

@@ -44,8 +44,8 @@ class Catalogue(Ruled):
 
     def rules(self) -> Iterator[Rule]:
         yield from masses_rules(("masses_kg",), self.masses_kg)
-        both = self.masses_kg is not None and self.mass_step_kg is not None
-        yield Rule(both, ("mass_step_kg",), "give either the masses or their step")
+        is_twice = self.masses_kg is not None and self.mass_step_kg is not None
+        yield Rule(is_twice, ("mass_step_kg",), "give either the masses or their step")
         if self.angle_step_deg is not None:
             yield from angle_step_rules(("angle_step_deg",), self.angle_step_deg)
 
@@ -69,7 +69,7 @@ def masses_rules(path: Path, masses: Sequence[float] | None) -> Iterator[Rule]:
     if masses is None:
         return
     yield Rule(not any(mass > 0 for mass in masses), path, "must hold a mass above 0")
-    seen: set[float] = set()
+    earlier: set[float] = set()
     for n, mass in enumerate(masses):
-        yield Rule(mass in seen, (*path, n), "this mass is in the list already")
-        seen.add(mass)
+        yield Rule(mass in earlier, (*path, n), "this mass is in the list already")
+        earlier.add(mass)

@@ -46,18 +46,18 @@ def _masses(masses: Any, _: Any) -> Iterator[Rule]:
 def _holes(angles: Any, web: Any) -> Iterator[Rule]:
     path = ("hole_angles_deg",)
     yield Rule(not angles, path, "must hold at least one angle")
-    seen: set[float] = set()
+    earlier: set[float] = set()
     for n, angle in enumerate(angles):
-        yield Rule(angle % 360.0 in seen, (*path, n), "this hole is in the list already")
-        seen.add(angle % 360.0)
+        yield Rule(angle % 360.0 in earlier, (*path, n), "this hole is in the list already")
+        earlier.add(angle % 360.0)
         yield from sector_rules((*path, n), angle, web, "this hole")
 
 
-def sector_rules(path: tuple[str | int, ...], angle_deg: Any, web: Any, what: str) -> Iterator[Rule]:
+def sector_rules(path: tuple[str | int, ...], angle_deg: Any, web: Any, subject: str) -> Iterator[Rule]:
     """What is chosen stands in the sector of its web."""
     if web.sector is not None:
         inside = in_sector(angle_deg, web.sector.centre_deg, web.sector.half_angle_deg)
-        yield Rule(not inside, path, f"{what} is outside the sector")
+        yield Rule(not inside, path, f"{subject} is outside the sector")
 
 
 #: by field of a web

@@ -64,18 +64,18 @@ def fitted_rules(
     shafts = machine.balance_shafts if machine.kind == "reciprocating" else ()
     names = {web.name for place in (machine, *shafts) for web in place.webs}
     fixed = {web.name: web.fixed for web in machine.webs if web.fixed is not None}
-    seen: set[str] = set()
+    earlier: set[str] = set()
     for index, counterweight in enumerate(counterweights):
         if counterweight.web is None:
             continue
         path = ("counterweights", index, "web")
         yield Rule(counterweight.web not in names, path, "the machine has no web of this name")
-        twice = counterweight.web in seen & names
+        twice = counterweight.web in earlier & names
         yield Rule(twice, path, "this web carries a counterweight already")
         there = fixed.get(counterweight.web)
         if there is not None:
             off = (counterweight.angle_deg - there.angle_deg) % 360.0
-            other = (counterweight.mass_kg != there.mass_kg) | (off != 0.0)
+            differs = (counterweight.mass_kg != there.mass_kg) | (off != 0.0)
             elsewhere = isinstance(counterweight, GivenCounterweight) and counterweight.radius_m is not None
-            yield Rule(other | elsewhere, path, "the weight of this web is fixed in the machine, as another one")
-        seen.add(counterweight.web)
+            yield Rule(differs | elsewhere, path, "the weight of this web is fixed in the machine, as another one")
+        earlier.add(counterweight.web)

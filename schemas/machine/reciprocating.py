@@ -145,19 +145,19 @@ class ReciprocatingMachine(Rotor):
         yield from unique_names(("balance_shafts",), [shaft.name for shaft in self.balance_shafts])
         places = sum((len(shaft.webs) for shaft in self.balance_shafts), len(self.webs))
         yield Rule(places > MAX_WEBS, ("balance_shafts",), f"all shafts together must hold at most {MAX_WEBS} webs")
-        taken = {web.name for web in self.webs}
+        names = {web.name for web in self.webs}
         for i, shaft in enumerate(self.balance_shafts):
             for k, web in enumerate(shaft.webs):
                 path = ("balance_shafts", i, "webs", k)
                 message = "this name is taken already; names of webs must be unique on all shafts"
-                yield Rule(web.name in taken, (*path, "name"), message)
+                yield Rule(web.name in names, (*path, "name"), message)
                 yield Rule(web.throw is not None, (*path, "throw"), "a balance shaft has no throws")
                 for name in _OF_THE_CRANKSHAFT:
                     yield Rule(getattr(web, name) is not None, (*path, name), "of the crankshaft's webs only")
-                taken.add(web.name)
-        chosen = {path[0] for path, _ in self.catalogue_webs()}
+                names.add(web.name)
+        places_of_castings = {path[0] for path, _ in self.catalogue_webs()}
         message = "with castings on balance shafts the crankshaft's are of the catalogue too: give one"
-        yield Rule(bool(self.web_groups) and chosen == {"balance_shafts"}, ("web_groups",), message)
+        yield Rule(bool(self.web_groups) and places_of_castings == {"balance_shafts"}, ("web_groups",), message)
         message = "with balance shafts the total mass has no limit: limit the masses of the webs"
         yield Rule(self.max_total_mass_kg is not None, ("max_total_mass_kg",), message)
 

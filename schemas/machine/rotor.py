@@ -105,13 +105,13 @@ class Rotor(Ruled):
     def _group_rules(self) -> Iterator[Rule]:
         """Every web of a group is there, in no other, and chosen."""
         yield from unique_names(("web_groups",), [group.name for group in self.web_groups])
-        webs, taken = {web.name: web for web in self.webs}, set[str]()
+        webs, members = {web.name: web for web in self.webs}, set[str]()
         for i, group in enumerate(self.web_groups):
             for j, name in enumerate(group.webs):
                 path = ("web_groups", i, "webs", j)
                 yield Rule(name not in webs, path, "the machine has no web of this name")
-                yield Rule(name in taken, path, "this web is in a group already")
-                taken.add(name)
+                yield Rule(name in members, path, "this web is in a group already")
+                members.add(name)
                 web = webs.get(name)
                 if web is not None:
                     message = "remove this web from the group: it has a fixed counterweight"
@@ -185,16 +185,16 @@ def unique_names(path: Path, names: Sequence[str | None]) -> Iterable[Rule]:
 
 
 def _repetitions(path: Path, names: Sequence[str | None]) -> Iterator[Rule]:
-    seen: set[str] = set()
+    earlier: set[str] = set()
     for index, name in enumerate(names):
         if name is None:
             continue
-        if name in seen:
+        if name in earlier:
             yield Rule(True, (*path, index, "name"), "this name is taken already; names must be unique")
-        seen.add(name)
+        earlier.add(name)
 
 
-def no_catalogue(machine: Rotor, path: Path, what: str) -> Iterator[Rule]:
+def no_catalogue(machine: Rotor, path: Path, subject: str) -> Iterator[Rule]:
     """Refuses discrete choices where counterweights of any mass and angle are chosen."""
     least = (
         (*place, k, "min_fitted_mass_kg")
@@ -203,10 +203,10 @@ def no_catalogue(machine: Rotor, path: Path, what: str) -> Iterator[Rule]:
         if web.min_fitted_mass_kg is not None
     )
     for field in (*machine.choice_fields(), *least):
-        yield Rule(True, (*path, *field), f"serves only to optimize one machine as it is given, not {what}")
+        yield Rule(True, (*path, *field), f"serves only to optimize one machine as it is given, not {subject}")
 
 
-def no_groups(machine: Rotor, path: Path, what: str) -> Iterator[Rule]:
+def no_groups(machine: Rotor, path: Path, subject: str) -> Iterator[Rule]:
     """Refuses identical castings where counterweights are chosen one by one."""
-    message = f"serves only to choose the counterweights of a machine, not {what}"
+    message = f"serves only to choose the counterweights of a machine, not {subject}"
     yield Rule(bool(machine.web_groups), (*path, "web_groups"), message)

@@ -81,5 +81,5 @@ class ScrollMachine(Rotor):
         yield from super().rules()
         for k, web in enumerate(self.webs):
             yield Rule(web.throw is not None, ("webs", k, "throw"), "a scroll has no throws")
-        both = self.rotation_torque_Nm is not None and self.tangential_gas_force_N is not None
-        yield Rule(both, ("rotation_torque_Nm",), "give either the torque or the gas force")
+        is_twice = self.rotation_torque_Nm is not None and self.tangential_gas_force_N is not None
+        yield Rule(is_twice, ("rotation_torque_Nm",), "give either the torque or the gas force")

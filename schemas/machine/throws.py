@@ -81,8 +81,8 @@ class ConnectingRod(Ruled):
             yield Rule(True, path, "an infinite rod has no such distance: give reciprocating_share")
             return
         yield Rule(self.centre_of_mass_m > self.length_m, path, "must be between crank pin and crosshead pin")
-        both = self.reciprocating_share != _CUSTOMARY_SHARE
-        yield Rule(both, path, "give either the centre of mass or reciprocating_share")
+        is_twice = self.reciprocating_share != _CUSTOMARY_SHARE
+        yield Rule(is_twice, path, "give either the centre of mass or reciprocating_share")
 
 
 class Row(Ruled):
@@ -145,11 +145,11 @@ class Row(Ruled):
     def rules(self) -> Iterator[Rule]:
         if not self.parts and "reciprocating_mass_kg" not in self.__pydantic_fields_set__:
             yield Rule(True, ("reciprocating_mass_kg",), REQUIRED)
-        seen: set[str] = set()
+        earlier: set[str] = set()
         for k, part in enumerate(self.parts):
-            if part.name in seen:
+            if part.name in earlier:
                 yield Rule(True, ("parts", k, "name"), "another part of the row has this name")
-            seen.add(part.name)
+            earlier.add(part.name)
 
 
 def row_cylinders(row: Row) -> Iterator[tuple[tuple[str | int, ...], Cylinder]]:

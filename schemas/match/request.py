@@ -152,8 +152,8 @@ class MatchRequest(Ruled):
             yield Rule(part.kind in kinds[:k], ("parts", k, "class"), "this class is named already")
             yield from _parts_rules(("parts", k), part, rows)
         yield from fitted_rules(self.machine, self.counterweights)
-        both = self.choose_counterweights and bool(self.counterweights)
-        yield Rule(both, ("counterweights",), "give either `counterweights` or `choose_counterweights`")
+        is_twice = self.choose_counterweights and bool(self.counterweights)
+        yield Rule(is_twice, ("counterweights",), "give either `counterweights` or `choose_counterweights`")
         message = f"a match that chooses counterweights needs a limit of at most {_LARGEST:g} kg here"
         for place, webs in self.machine.web_lists() if self.choose_counterweights else ():
             for k, web in enumerate(webs):

@@ -252,8 +252,10 @@ class RatingRequest(Ruled):
 
     def rules(self) -> Iterator[Rule]:
         yield from choice_rules(self.piston_rods, self.motors)
-        both = bool(self.motors) and self.installed_motor_power_W is not None
-        yield Rule(both, ("installed_motor_power_W",), "give either the motor that is there or motors to choose from")
+        is_twice = bool(self.motors) and self.installed_motor_power_W is not None
+        yield Rule(
+            is_twice, ("installed_motor_power_W",), "give either the motor that is there or motors to choose from"
+        )
         for index, stage in enumerate(self.stages):
             unsaid = stage.piston_rod_diameter_m is None and not self.piston_rods
             path = ("stages", index, "piston_rod_diameter_m")
@@ -263,27 +265,27 @@ class RatingRequest(Ruled):
         yield Rule(falls, ("discharge_pressure_Pa",), "must be above the suction pressure")
         if self.interstage_pressures_Pa is not None and not falls:
             yield from self._interstage_rules(self.interstage_pressures_Pa)
-        added = self.stages[0].side_flow_coefficient != 1.0
-        yield Rule(added, ("stages", 0, "side_flow_coefficient"), "must be 1: it counts from the first stage")
-        seen: set[str] = set()
+        is_unequal = self.stages[0].side_flow_coefficient != 1.0
+        yield Rule(is_unequal, ("stages", 0, "side_flow_coefficient"), "must be 1: it counts from the first stage")
+        earlier: set[str] = set()
         for index, stage in enumerate(self.stages):
-            yield Rule(stage.name in seen, ("stages", index, "name"), "another stage has this name")
+            yield Rule(stage.name in earlier, ("stages", index, "name"), "another stage has this name")
             if stage.name is not None:
-                seen.add(stage.name)
+                earlier.add(stage.name)
             temperature = stage.suction_temperature_K
             outside = self.relative_humidity > 0 and not COLDEST_STEAM_K <= temperature <= HOTTEST_STEAM_K
             message = f"must be from {COLDEST_STEAM_K} to {HOTTEST_STEAM_K} K where the gas is humid"
             yield Rule(outside, ("stages", index, "suction_temperature_K"), message)
 
     def _tandem_rules(self) -> Iterator[Rule]:
-        seen: set[int] = set()
+        earlier: set[int] = set()
         for index, tandem in enumerate(self.tandems):
             yield Rule(len(tandem) < 2, ("tandems", index), "takes at least two stages")
             for place, number in enumerate(tandem):
                 path = ("tandems", index, place)
                 yield Rule(number > len(self.stages), path, "there is no stage of this number")
-                yield Rule(number in seen, path, "this stage is on a rod already")
-                seen.add(number)
+                yield Rule(number in earlier, path, "this stage is on a rod already")
+                earlier.add(number)
             counts = {self.stages[number - 1].cylinders for number in tandem if number <= len(self.stages)}
             yield Rule(len(counts) > 1, ("tandems", index), "stages that share rods have as many cylinders each")
 

@@ -72,9 +72,9 @@ class TemperatureCurve(Ruled):
         )
 
 
-def _readings(at: str, places: Sequence[float], what: str, values: Sequence[float]) -> Iterator[Rule]:
+def _readings(at: str, places: Sequence[float], field: str, values: Sequence[float]) -> Iterator[Rule]:
     yield Rule(len(places) < 2, (at,), "a curve needs at least two readings")
-    yield Rule(len(values) != len(places), (what,), f"must hold as many readings as {at}")
+    yield Rule(len(values) != len(places), (field,), f"must hold as many readings as {at}")
     for k, (low, high) in enumerate(pairwise(places)):
         yield Rule(high <= low, (at, k + 1), "must rise from reading to reading")
 

@@ -40,7 +40,7 @@ class CaseKind(NamedTuple):
     rules: Callable[[Scene, Any], Iterator[Rule]]
 
 
-def _listed(scenarios: tuple[Scenario, ...]) -> Iterator[Case]:
+def _cases_of(scenarios: tuple[Scenario, ...]) -> Iterator[Case]:
     for i, scenario in enumerate(scenarios):
         place = ("scenarios", i)
         values = tuple((*place, "changes", j, "value") for j in range(len(scenario.changes)))
@@ -49,7 +49,7 @@ def _listed(scenarios: tuple[Scenario, ...]) -> Iterator[Case]:
 
 #: by field of the request, in the order of answers
 KINDS: dict[str, CaseKind] = {
-    "scenarios": CaseKind((), _listed, change_rules),
+    "scenarios": CaseKind((), _cases_of, change_rules),
     # beside this one
 }
 #: fields of a request about the machine as it is given

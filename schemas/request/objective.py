@@ -192,8 +192,8 @@ class Objective(Ruled):
         external = self.roll_weight != 0
         for response in RESPONSES.values():
             external = external | (getattr(self, response.weight) != 0)
-        some = external | (self.bearing_weight != 0) | (self.bending_weight != 0)
-        none = some == 0
+        has_weight = external | (self.bearing_weight != 0) | (self.bending_weight != 0)
+        none = has_weight == 0
         if none is not False:
             yield Rule(none, ("moment_weight",), "one of the weights must be above 0")
         across = self.direction_weights
@@ -207,15 +207,15 @@ class Objective(Ruled):
     def _priority_rules(self, external: Any) -> Iterator[Rule]:
         """What does not go with goals in their order; ``external``: whether what acts on the frame has a weight."""
         weighed = {"external": external, "bearings": self.bearing_weight != 0, "bending": self.bending_weight != 0}
-        named = [priority.goal for priority in self.priorities]
-        for i, goal in enumerate(named):
+        goals = [priority.goal for priority in self.priorities]
+        for i, goal in enumerate(goals):
             path = ("priorities", i, "goal")
-            yield Rule(goal in named[:i], path, "this goal is named already")
+            yield Rule(goal in goals[:i], path, "this goal is named already")
             message = f"give a goal beside {goal}: external, bearings or bending"
-            yield Rule(goal in COSTS and not set(named) - set(COSTS), path, message)
+            yield Rule(goal in COSTS and not set(goals) - set(COSTS), path, message)
             yield Rule(weighed.get(goal, True) == 0, path, "this goal has no weight")
         for name, has in weighed.items():
-            yield Rule((name not in named) & has, ("priorities",), f"the goal {name} has a weight and no place")
+            yield Rule((name not in goals) & has, ("priorities",), f"the goal {name} has a weight and no place")
         yield Rule(
-            "mass" in named and not self.least_mass, ("least_mass",), "the mass has a place among the priorities"
+            "mass" in goals and not self.least_mass, ("least_mass",), "the mass has a place among the priorities"
         )

@@ -187,7 +187,7 @@ class OptimizeRequest(Scene, Ruled):
         ):
             yield Rule(broken, ("machine", *path), message)
 
-    def _choice_rules(self, what: str) -> Iterator[Rule]:
+    def _choice_rules(self, subject: str) -> Iterator[Rule]:
         """What does not go with either."""
         tolerances, goal = self.tolerances, self.objective
         if tolerances is None:
@@ -198,7 +198,7 @@ class OptimizeRequest(Scene, Ruled):
         also = "a ceiling" if limited else f"objective.{(*several, '')[0]}"
         for name in ("mass_relative", "angle_deg"):
             beyond = (getattr(tolerances, name) > 0) and (limited or bool(several))
-            message = f"not with {what} and {also}: {_FIX_THE_CHOICE}"
+            message = f"not with {subject} and {also}: {_FIX_THE_CHOICE}"
             yield Rule(beyond, ("tolerances", name), message)
 
     def _cost_rules(self, choice: Choice | None) -> Iterator[Rule]:

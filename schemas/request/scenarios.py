@@ -88,7 +88,7 @@ def change_rules(request: Scene, scenarios: Sequence[Scenario]) -> Iterator[Rule
 
 def _change_rules(request: Scene, scenario: Scenario) -> Iterator[Rule]:
     """What is wrong with the changes one by one; paths from the changes."""
-    seen: set[Path] = set()
+    earlier: set[Path] = set()
     for j, change in enumerate(scenario.changes):
         try:
             target = find_target(request, change.path)
@@ -96,10 +96,10 @@ def _change_rules(request: Scene, scenario: Scenario) -> Iterator[Rule]:
             yield Rule(True, (j, "path"), str(error))
             continue
         refused = _refused(target.path)
-        if refused or target.path in seen:
+        if refused or target.path in earlier:
             yield Rule(True, (j, "path"), refused or "another change of this scenario is in this field")
             continue
-        seen.add(target.path)
+        earlier.add(target.path)
         try:
             value = target.number(change.value)
         except ValueError as error:

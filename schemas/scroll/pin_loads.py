@@ -110,8 +110,8 @@ class PinLoadsRequest(Ruled):
         else:
             alone = self.pin_count is not None and self.pin_circle_radius_m is None
             yield Rule(alone, radius, "evenly spaced pins need the radius of their circle")
-        both = self.pins is not None and self.pin_circle_radius_m is not None
-        yield Rule(both, radius, "every pin has its own radius")
+        is_twice = self.pins is not None and self.pin_circle_radius_m is not None
+        yield Rule(is_twice, radius, "every pin has its own radius")
         most = MAX_LOADS_WITH_CLEARANCE if self.has_clearance else MAX_LOADS
         many = self.count * self.angles.count > most
         yield Rule(many, ("angles", "step_deg"), f"pins times samples must be at most {most}")
@@ -121,14 +121,14 @@ class PinLoadsRequest(Ruled):
         stiffness = any(pin.stiffness_N_per_m is not None for pin in pins)
         elastic = self.drive_bearing.type == "elastic"
         needed = stiffness or self.has_clearance or elastic
-        what = "an elastic drive bearing needs" if elastic else "clearances and errors need"
-        why = "every pin needs one" if stiffness else f"{what} the stiffness of every pin"
+        subject = "an elastic drive bearing needs" if elastic else "clearances and errors need"
+        why = "every pin needs one" if stiffness else f"{subject} the stiffness of every pin"
         places = [_place(pin.radius_m, radians(pin.angle_deg % 360.0)) for pin in pins]
         for index, pin in enumerate(pins):
             yield Rule(needed and pin.stiffness_N_per_m is None, ("pins", index, "stiffness_N_per_m"), why)
             # nearer than this no arithmetic tells them apart
-            taken = any(dist(places[index], other) <= 1e-9 * pin.radius_m for other in places[:index])
-            yield Rule(taken, ("pins", index, "angle_deg"), "another pin is in this place")
+            is_double = any(dist(places[index], neighbour) <= 1e-9 * pin.radius_m for neighbour in places[:index])
+            yield Rule(is_double, ("pins", index, "angle_deg"), "another pin is in this place")
 
     def _cause_rules(self) -> Iterator[Rule]:
         torque, force, lever = self.rotation_torque_Nm, self.tangential_gas_force_N, self.orbit_radius_m

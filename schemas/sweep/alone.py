@@ -35,13 +35,13 @@ def alone_problems(base: OptimizeRequest | AnalyzeRequest) -> Iterator[FieldProb
     """What only an optimum of one design after the other can be asked for."""
     if isinstance(base, OptimizeRequest):
         return
-    what = "a sweep of what is analyzed"
+    subject = "a sweep of what is analyzed"
     machine, place = base.machine, ("machine",)
     rules = (
-        no_catalogue(machine, place, what),
-        no_groups(machine, place, what),
+        no_catalogue(machine, place, subject),
+        no_groups(machine, place, subject),
         ((broken, (*place, *path), message) for broken, path, message in machine.no_envelopes(
-            f"{what}: counterweights have a known radius"
+            f"{subject}: counterweights have a known radius"
         )),
     )  # fmt: skip
     for broken, path, message in chain.from_iterable(rules):

@@ -102,7 +102,7 @@ def crank_orders(
     symmetries = {
         Symmetry(image, ends): None
         for image in _images(machine, different, times, alike_across, fitted)
-        for ends in ((False, True) if not fitted and _same_from_both_ends(machine) else (False,))
+        for ends in ((False, True) if not fitted and _same_from_either_end(machine) else (False,))
     }
     return CrankOrders(tuple(different), times, tuple(symmetries))
 
@@ -150,7 +150,7 @@ def _same_in_a_mirror(machine: Machine, alike_across: bool) -> bool:
     if any(row.cylinder is not None or row.cylinders for throw in throws for row in throw.rows):
         return False
     axes = [row.axis_deg for throw in throws[:1] for row in throw.rows] or [0.0]
-    lines = {(axis + other) / 2 for axis in axes for other in axes}
+    lines = {(axis + partner) / 2 for axis in axes for partner in axes}
     if not alike_across:
         lines = {line for line in lines if _off(line, 90.0) <= _NEAR}
     return any(all(_mirrored(throw.rows, line) for throw in throws) for line in lines)
@@ -179,7 +179,7 @@ def _alike(first: Row, second: Row) -> bool:
     return all(getattr(first, name) == getattr(second, name) for name in fields)
 
 
-def _same_from_both_ends(machine: Machine) -> bool:
+def _same_from_either_end(machine: Machine) -> bool:
     """Whether throws, webs and bearings are the same from both ends, about the plane of moments if one is given."""
     throws = machine.throws
     ends = throws[0].position_m + throws[-1].position_m
@@ -192,15 +192,15 @@ def _same_from_both_ends(machine: Machine) -> bool:
         return False
     if plane is not None and abs(2 * plane - ends) > _NEAR * max(size, abs(plane)):
         return False
-    sides = [[_from_an_end(throw, ends, turned) for throw in throws] for turned in (False, True)]
+    sides = [[_from_an_end(throw, ends, reverse) for throw in throws] for reverse in (False, True)]
     places = [*machine.webs, *machine.bearings]
     last = len(throws) - 1 if machine.discrete else None
-    turned = [_from_an_end(place, ends, True, last) for place in places]
+    opposite = [_from_an_end(place, ends, True, last) for place in places]
     there = [_from_an_end(place, ends, False, last) for place in places]
-    return _equal(sides[0], sides[1][::-1], size) and _equal(there, turned, size, anywhere=True)
+    return _equal(sides[0], sides[1][::-1], size) and _equal(there, opposite, size, anywhere=True)
 
 
-def _from_an_end(part: Any, ends: float, turned: bool, last: int | None = None) -> dict[str, Any]:
+def _from_an_end(part: Any, ends: float, reverse: bool, last: int | None = None) -> dict[str, Any]:
     """What a throw, a web or a bearing is, without its name and crank angle, with its distance from an end.
 
     Parameters
@@ -208,13 +208,13 @@ def _from_an_end(part: Any, ends: float, turned: bool, last: int | None = None) 
     last : number of the last throw, where it matters whose crank a web belongs to: steps of angle count from it.
     """
     fields: dict[str, Any] = part.model_dump(exclude={"name", "crank_angle_deg", "throw"})
-    fields["position_m"] = ends - part.position_m if turned else part.position_m
+    fields["position_m"] = ends - part.position_m if reverse else part.position_m
     own = getattr(part, "throw", None)
     if last is not None and own is not None:
-        fields["throw"] = last - own if turned else own
+        fields["throw"] = last - own if reverse else own
     for row in fields.get("rows", ()):
         row["name"] = None
-        row["offset_m"] = -row["offset_m"] if turned else row["offset_m"]
+        row["offset_m"] = -row["offset_m"] if reverse else row["offset_m"]
     return fields
 
 

@@ -65,15 +65,15 @@ def parts_of(machine: Machine, of: Of) -> Iterator[Part]:
         yield Part("", ())
     elif isinstance(machine, ReciprocatingMachine):
         if of == "throws":
-            yield from _named("throws", machine.throws)
+            yield from _parts_of("throws", machine.throws)
         elif of == "bearings":
-            yield from _named("bearings", machine.bearings)
+            yield from _parts_of("bearings", machine.bearings)
         else:
             for label, path in _rows(machine):
                 yield from _within(machine, of, label, path)
 
 
-def _named(field: str, parts: Sequence[Model]) -> Iterator[Part]:
+def _parts_of(field: str, parts: Sequence[Model]) -> Iterator[Part]:
     for k, label in enumerate(labels([getattr(part, "name", None) for part in parts])):
         yield Part(label, (field, k))
 

@@ -121,9 +121,9 @@ class SweepRequest(Ruled):
 
     def rules(self) -> Iterator[Rule]:
         # each looks at what the ones before have found right
-        ordered = self.design == "crank_orders"
+        has_orders = self.design == "crank_orders"
         designs = (self._axis_problems, self._design_problems, self._search_problems)
-        varied = (self._order_problems,) if ordered else designs
+        varied = (self._order_problems,) if has_orders else designs
         for part in (self._output_problems, self._angle_problems, *varied, self._column_problems):
             problems = list(part())
             yield from (Rule(True, path, message) for path, message in problems)

@@ -35,8 +35,8 @@ _LIBRARIES = {"OPENBLAS_NUM_THREADS": "1", "PYDANTIC_DISABLE_PLUGINS": "__all__"
 _LOG_LEVEL = "COUNTERWEIGHT_LOG_LEVEL"
 
 
-def _version(wanted: bool) -> None:
-    if wanted:
+def _version(value: bool) -> None:
+    if value:
         from schemas.base.version import package_version
 
         put(package_version())
@@ -53,19 +53,19 @@ def _options(
 
 def command_line() -> typer.Typer:
     """All commands."""
-    made = typer.Typer(
+    application = typer.Typer(
         no_args_is_help=True,
         add_completion=False,
         pretty_exceptions_enable=False,
     )
-    made.callback()(_options)
+    application.callback()(_options)
     for computation in COMPUTATIONS.values():
         if computation.chapters is not None:
-            made.command(name=computation.title)(command(computation))
-    for other in (sweep, plot, report, draw, table, template, verify, effects, examples, schema, serve):
-        made.command()(other)
-    made.add_typer(key, name="key")
-    return made
+            application.command(name=computation.title)(command(computation))
+    for function in (sweep, plot, report, draw, table, template, verify, effects, examples, schema, serve):
+        application.command()(function)
+    application.add_typer(key, name="key")
+    return application
 
 
 app = command_line()

@@ -22,13 +22,13 @@ def draw(file: File, to: Target, of: AnswerOption = None) -> None:
     """Draw the counterweights of a machine for a workshop and for other CAD: DXF, SVG, STEP, bill of material."""
     computation = COMPUTATIONS["drawings"]
     fields = {} if of is None else {"counterweights": _fitted(of)}
-    drawn = answer(computation.function, question(computation.request_model, file, fields))
-    written = resolve_name(computation.forms[0].write)(drawn)
+    drawings = answer(computation.function, question(computation.request_model, file, fields))
+    data = resolve_name(computation.forms[0].write)(drawings)
     try:
-        to.write_bytes(written)
+        to.write_bytes(data)
     except OSError as error:
         fail(f"cannot write {to}: {error.strerror}")
-    raise typer.Exit(1 if drawn.status == "inaccurate" else 0)
+    raise typer.Exit(1 if drawings.status == "inaccurate" else 0)
 
 
 def _fitted(file: str) -> list[dict[str, Any]]:

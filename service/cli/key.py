@@ -43,14 +43,14 @@ def create(
     expires = None if days is None else time.time() + days * _DAY_S
     try:
         parsed(rate or "")
-        made, record = keys.make(owner, tuple(scope or ("compute", "sweeps", "read")), expires, rate)  # type: ignore[arg-type]
+        secret, record = keys.make(owner, tuple(scope or ("compute", "sweeps", "read")), expires, rate)  # type: ignore[arg-type]
     except ValidationError as error:
         fail(*(f"{detail['loc'][0]}: {detail['msg']}" for detail in error.errors(include_input=False)))
     except ValueError as error:
         fail(str(error))
     with _changed(where, new=True) as records:
         records.append(record)
-    put(made)
+    put(secret)
 
 
 @key.command(name="list")
@@ -87,10 +87,10 @@ def revoke(
 
 
 def _file(path: Path | None) -> Path:
-    named = path or os.environ.get("COUNTERWEIGHT_KEYS_FILE")
-    if not named:
+    place = path or os.environ.get("COUNTERWEIGHT_KEYS_FILE")
+    if not place:
         fail("name the file of the keys with --file or COUNTERWEIGHT_KEYS_FILE")
-    return Path(named)
+    return Path(place)
 
 
 def _read(file: Path) -> "list[KeyRecord]":

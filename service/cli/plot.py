@@ -35,9 +35,9 @@ def plot(
     if not across:
         fail(f"{rows} has no design with a certified answer and a number in {x} and {y}")
     units = [(table.schema.field(name).metadata or {}).get(b"unit", b"").decode() for name in (x, y)]
-    drawn = svg(scatter(Column(x, units[0], across), Column(y, units[1], upward)))
+    picture = svg(scatter(Column(x, units[0], across), Column(y, units[1], upward)))
     try:
-        to.write_bytes(drawn)
+        to.write_bytes(picture)
     except OSError as error:
         fail(f"cannot write {to}: {error.strerror}")
     put(f"{to}: {len(across)} designs" + (f"; {left_out} without a certified answer left out" if left_out else ""))

@@ -23,9 +23,9 @@ def report(file: File, to: Target, output: OutputOptions = None) -> None:
     if form is None:
         fail(f"the name of the document must end in {' or '.join(form.suffix for form in computation.forms)}")
     request = question(computation.request_model, file, {"outputs": output} if output else {})
-    made = answer(computation.function, request)
+    document = answer(computation.function, request)
     try:
-        to.write_bytes(resolve_name(form.write)(made))
+        to.write_bytes(resolve_name(form.write)(document))
     except OSError as error:
         fail(f"cannot write {to}: {error.strerror}")
-    raise typer.Exit(0 if made.status == "optimal" else 1)
+    raise typer.Exit(0 if document.status == "optimal" else 1)

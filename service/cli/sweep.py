@@ -165,9 +165,10 @@ def _run(desk: "OwnerJobs", request: "SweepRequest", place: Path, quiet: bool) -
     try:
         return _watch(desk, job, quiet)
     except KeyboardInterrupt:
-        done = desk.get(job.id).done
+        finished = desk.get(job.id).done
         typer.echo(
-            f"interrupted after {done} of {job.total} designs; the same command goes on from there ({place})", err=True
+            f"interrupted after {finished} of {job.total} designs; the same command goes on from there ({place})",
+            err=True,
         )
         raise typer.Exit(_INTERRUPTED) from None
 
@@ -212,11 +213,11 @@ def _finish(desk: "OwnerJobs", job: "Job", request: "SweepRequest", output: Path
         export(output, schema, (desk.selection if job.selects else desk.rows)(job, schema).batches)
         counts = _counts(desk, job, schema)
     except OSError as error:
-        _not_written(f"cannot write {output}: {error.strerror}; the same command tries again")
+        _write_failure(f"cannot write {output}: {error.strerror}; the same command tries again")
     except (RowsDamaged, FilesUnavailable) as error:
-        _not_written(f"cannot write {output}: {error} The same command goes on.")
+        _write_failure(f"cannot write {output}: {error} The same command goes on.")
     except (NotFinished, TooLargeForWorksheet) as error:
-        _not_written(f"cannot write {output}: {error}")
+        _write_failure(f"cannot write {output}: {error}")
     if as_json:
         put(desk.state(job).model_dump_json())
     else:
@@ -228,7 +229,7 @@ def _finish(desk: "OwnerJobs", job: "Job", request: "SweepRequest", output: Path
     return counts
 
 
-def _not_written(message: str) -> NoReturn:
+def _write_failure(message: str) -> NoReturn:
     typer.echo(message, err=True)
     raise typer.Exit(1)
 

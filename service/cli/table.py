@@ -24,11 +24,11 @@ def table(name: NameOfTable, file: File, to: Target = None) -> None:
         fail(f"there is no table {name}; these are {', '.join(NAMES)}")
     computation = COMPUTATIONS[_PREFIX + name]
     request, where = read_input(computation.request_model, file)
-    written = resolve_name(computation.forms[0].write)(answer(computation.function, request, where))
+    content = resolve_name(computation.forms[0].write)(answer(computation.function, request, where))
     if to is None:
-        put(written.decode().replace("\r\n", "\n").rstrip("\n"))
+        put(content.decode().replace("\r\n", "\n").rstrip("\n"))
         return
     try:
-        to.write_bytes(written)
+        to.write_bytes(content)
     except OSError as error:
         fail(f"cannot write {to}: {error.strerror}")

@@ -29,8 +29,8 @@ def address_of(scope: Scope) -> str:
 class Networks:
     """A list of addresses and networks, as ``in`` asks; ``*`` is any, and a name is itself."""
 
-    def __init__(self, listed: Iterable[str]) -> None:
-        self._names = frozenset(listed)
+    def __init__(self, names: Iterable[str]) -> None:
+        self._names = frozenset(names)
         self._networks = tuple(network for network in map(_network, self._names) if network is not None)
 
     def __contains__(self, address: str) -> bool:

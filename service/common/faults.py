@@ -38,4 +38,4 @@ def error_log() -> Iterator[list[str]]:
         yield messages
     finally:
         # equal ones of others may be among them
-        listeners[:] = [others for others in listeners if others is not messages]
+        listeners[:] = [listener for listener in listeners if listener is not messages]

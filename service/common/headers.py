@@ -13,6 +13,6 @@ def header(scope: MutableMapping[str, Any], name: bytes) -> str | None:
     return None
 
 
-def joined(scope: MutableMapping[str, Any], name: bytes) -> str:
+def header_list(scope: MutableMapping[str, Any], name: bytes) -> str:
     """All of a name as one list (RFC 9110, 5.3); empty if there is none."""
     return b",".join([value for key, value in scope["headers"] if key == name]).decode("latin-1")

@@ -52,11 +52,11 @@ def slice_s() -> float:
     return float(_ATTRIBUTES.unpack(buffer)[5]) / 1e9
 
 
-def _call(which: int, attributes: bytes, *more: int) -> bytes:
+def _call(number: int, attributes: bytes, *more: int) -> bytes:
     numbers = _CALLS.get(platform.machine())
     if numbers is None:
         raise OSError(errno.ENOSYS, "no time slices here")
     buffer = ctypes.create_string_buffer(attributes, len(attributes))
-    if _LIBRARY.syscall(ctypes.c_long(numbers[which]), 0, buffer, *(ctypes.c_uint(argument) for argument in more)):
+    if _LIBRARY.syscall(ctypes.c_long(numbers[number]), 0, buffer, *(ctypes.c_uint(argument) for argument in more)):
         raise OSError(ctypes.get_errno(), os.strerror(ctypes.get_errno()))
     return buffer.raw

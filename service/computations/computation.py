@@ -51,8 +51,8 @@ class Form:
     def content(self, request: Any, answer: Any) -> bytes:
         """The answer to a request in this form."""
         write = _object(self.write)
-        made: bytes = write(request, answer) if self.needs_request else write(answer)
-        return made
+        content: bytes = write(request, answer) if self.needs_request else write(answer)
+        return content
 
 
 JSON = Form("application/json", "service.common.answer_bytes:json_bytes", ".json")

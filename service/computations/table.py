@@ -9,7 +9,7 @@ def _document(suffix: str, media_type: str, write: Reference, styles: str = "", 
     return Form(media_type, write, suffix, headers, compressed)
 
 
-def _picture(name: str, what: str) -> Computation:
+def _picture(name: str, subject: str) -> Computation:
     """A picture of the answer to an optimisation, drawn as the report draws it."""
     return Computation(
         name=f"picture_{name}",
@@ -17,7 +17,7 @@ def _picture(name: str, what: str) -> Computation:
         request="schemas.request.picture:PictureRequest",
         answer=None,
         compute=f"service.report.pictures:{name}",
-        summary=f"{what}, as SVG or PNG",
+        summary=f"{subject}, as SVG or PNG",
         remark="The header `Accept` chooses; `picture` says size, ground and title. "
         "With the counterweights that are found to be best, or those of the best compromise where none keep the "
         "ceilings.",
@@ -29,7 +29,7 @@ def _picture(name: str, what: str) -> Computation:
     )
 
 
-def _table(name: str, what: str) -> Computation:
+def _table(name: str, subject: str) -> Computation:
     """A table of the answer to an optimisation, a number in every cell."""
     headers = (("Content-Disposition", f'attachment; filename="{name}.csv"'),)
     return Computation(
@@ -38,7 +38,7 @@ def _table(name: str, what: str) -> Computation:
         request="schemas.request.requests:OptimizeRequest",
         answer=None,
         compute=f"service.tables.tables:{name}",
-        summary=f"{what}, as CSV",
+        summary=f"{subject}, as CSV",
         remark="Of the answer to an optimisation; the first line holds the headings, with units.",
         tag="tables",
         forms=(Form("text/csv; charset=utf-8; header=present", "service.tables.lines:as_csv", ".csv", headers),),
@@ -107,7 +107,7 @@ COMPUTATIONS: dict[str, Computation] = {
             summary="What accuracy costs in time on a machine: a ladder of methods and settings",
             remark="Times are those of this machine at this moment; errors and gaps do not depend on it.",
             help="Show what accuracy costs in time on a machine.",
-            chapters="service.report.chapters.accuracy:measured",
+            chapters="service.report.chapters.accuracy:ladders",
             options=("repeats",),
             picture="service.report.accuracy_picture:draw",
             long=True,
@@ -122,7 +122,7 @@ COMPUTATIONS: dict[str, Computation] = {
             summary="Loads of the anti-rotation pins of a scroll over a revolution",
             remark="Where the pins cannot hold the scroll at some angle, `equilibrium` and `dead_points_deg` say so.",
             help="Say what the anti-rotation pins of a scroll carry over a revolution.",
-            chapters="service.report.chapters.pins:loaded",
+            chapters="service.report.chapters.pins:pins",
             tag="scroll",
             forms=(
                 JSON,
@@ -155,7 +155,7 @@ COMPUTATIONS: dict[str, Computation] = {
             " the masses of bodies. `doubts` holds what a designer should look at. A shaft with serious ones is"
             " answered with 200 too.",
             help="Read a crankshaft from the faces and bodies that a CAD lists.",
-            chapters="service.report.chapters.shaft:shown",
+            chapters="service.report.chapters.shaft:shaft",
             tag="shaft",
             examples="shaft",
         ),
@@ -238,7 +238,7 @@ COMPUTATIONS: dict[str, Computation] = {
             path="/v1/drawings",
             request="schemas.request.drawings:DrawingsRequest",
             answer=None,
-            compute="service.drawings.drawn:drawings",
+            compute="service.drawings.drawing_set:drawings",
             summary="Drawings of the counterweights for a workshop and for other CAD, in one zip file",
             remark="Of each part an outline (DXF), a sheet with dimensions (SVG) and a solid (STEP), all of them in"
             " their places, and the bill of material (CSV, xlsx). Webs with an envelope can be drawn.",

@@ -40,10 +40,10 @@ def template(name: str) -> bytes:
     """
     # only who asks for one pays for the library
     from service.workbook.files import workbook
-    from service.workbook.sheets import Sheets, written
+    from service.workbook.sheets import Sheets, request_sheets
 
     if name != EMPTY:
-        return workbook(written(json.loads(load(name))))
+        return workbook(request_sheets(json.loads(load(name))))
     values = {"machine.kind": "reciprocating"}
     fields: Sheets = {"machine": [["field", "value"]]}
     for field in _FIELDS:

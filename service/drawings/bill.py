@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 from schemas.answer.counterweights import Counterweight
 from service.common.plain import inert, plain
-from service.drawings.drawn import DrawingSet
+from service.drawings.drawing_set import DrawingSet
 from service.drawings.parts import Part
 from service.tables.as_built import HEADS as BUILT_HEADS
 from service.tables.as_built import line
@@ -21,26 +21,30 @@ _WEB = HEADS.index("web")
 Cell = str | float | int | bool | None
 
 
-def heads(drawn: DrawingSet) -> tuple[str, ...]:
+def heads(drawings: DrawingSet) -> tuple[str, ...]:
     """Of the columns; what is built stands beside the optimum."""
-    return HEADS if drawn.built is None else (*HEADS, *BUILT_HEADS[1:])
+    return HEADS if drawings.built is None else (*HEADS, *BUILT_HEADS[1:])
 
 
-def rows(drawn: DrawingSet) -> Iterator[tuple[Cell, ...]]:
+def rows(drawings: DrawingSet) -> Iterator[tuple[Cell, ...]]:
     """The lines of the bill, each with what sets it beside the optimum where it is as built."""
-    beside = {} if drawn.built is None else {pair.web: line(pair, drawn.built.tolerance) for pair in drawn.built.pairs}
-    for row in _rows(drawn):
+    beside = (
+        {}
+        if drawings.built is None
+        else {pair.web: line(pair, drawings.built.tolerance) for pair in drawings.built.pairs}
+    )
+    for row in _rows(drawings):
         yield *row, *(beside[str(row[_WEB])][1:] if beside else ())
 
 
-def _rows(drawn: DrawingSet) -> Iterator[tuple[Cell, ...]]:
+def _rows(drawings: DrawingSet) -> Iterator[tuple[Cell, ...]]:
     """The counterweights that are drawn, part by part, then those without a plate."""
-    for part in drawn.parts:
+    for part in drawings.parts:
         for counterweight in part.places:
-            yield part.number, len(part.places), *_placed(counterweight), *_made(part, counterweight), part.name
-    drawn_webs = {place.web for part in drawn.parts for place in part.places}
-    for counterweight in drawn.fitted:
-        if counterweight.web not in drawn_webs:
+            yield part.number, len(part.places), *_placed(counterweight), *_shape(part, counterweight), part.name
+    plate_webs = {place.web for part in drawings.parts for place in part.places}
+    for counterweight in drawings.fitted:
+        if counterweight.web not in plate_webs:
             yield None, 1, *_placed(counterweight), *(None,) * 7, "none: the web has no envelope"
 
 
@@ -51,7 +55,7 @@ def _placed(weight: Counterweight) -> tuple[Cell, ...]:
     )  # fmt: skip
 
 
-def _made(part: Part, counterweight: Counterweight) -> tuple[Cell, ...]:
+def _shape(part: Part, counterweight: Counterweight) -> tuple[Cell, ...]:
     envelope, shape = part.envelope, counterweight.shape
     height = None if shape is None or shape.chord_height_m is None else 1e3 * shape.chord_height_m
     return (
@@ -60,17 +64,17 @@ def _made(part: Part, counterweight: Counterweight) -> tuple[Cell, ...]:
     )  # fmt: skip
 
 
-def as_csv(drawn: DrawingSet) -> bytes:
+def as_csv(drawings: DrawingSet) -> bytes:
     """In UTF-8; a text that a spreadsheet would run stays text."""
     out = io.StringIO(newline="")
     writer = csv.writer(out, lineterminator="\r\n")
-    writer.writerow(heads(drawn))
-    for row in rows(drawn):
+    writer.writerow(heads(drawings))
+    for row in rows(drawings):
         writer.writerow([inert(plain(cell)) if isinstance(cell, str) else cell for cell in row])
     return out.getvalue().encode()
 
 
-def as_workbook(drawn: DrawingSet) -> bytes:
+def as_workbook(drawings: DrawingSet) -> bytes:
     """As xlsx."""
     # only who asks for drawings pays for the library
     from openpyxl import Workbook
@@ -78,8 +82,8 @@ def as_workbook(drawn: DrawingSet) -> bytes:
 
     book = Workbook(write_only=True)
     sheet = book.create_sheet("bill of material")
-    sheet.append(heads(drawn))
-    for row in rows(drawn):
+    sheet.append(heads(drawings))
+    for row in rows(drawings):
         cells = []
         for value in row:
             cell = WriteOnlyCell(sheet, plain(value) if isinstance(value, str) else value)

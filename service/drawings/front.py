@@ -8,7 +8,7 @@ from typing import TypeVar
 from service.common.figures import digits
 from service.drawings.labels import Label, Shape, labels
 from service.drawings.layout import Balance, CrankMachine, Fitted, Layout, OrbitMachine, Outline, Pins, Place, Ring
-from service.drawings.outline import bounded, points, turned
+from service.drawings.outline import bounded, points, rotation
 from service.drawings.projection import SIZE, FrontProjection, disc
 from service.drawings.svg import AFTER, FAINT, INK, MUTED, SERIES, Drawing, Point, shortened
 
@@ -39,9 +39,9 @@ def front(layout: Layout) -> Drawing:
     drawing = Drawing(SIZE, SIZE, words, _SCALE)
     view = FrontProjection(_MACHINE / _reach(layout))
     _frame(drawing)
-    wanted: list[Label] = []
+    names_beside: list[Label] = []
     if isinstance(machine, CrankMachine):
-        wanted += _rows(drawing, view, machine)
+        names_beside += _rows(drawing, view, machine)
     for web in machine.places:
         _allowed(drawing, view, web)
     optimum = (*best, *chain.from_iterable(shaft.best for shaft in layout.balance))
@@ -50,14 +50,18 @@ def front(layout: Layout) -> Drawing:
     _as_built(drawing, view, built, every)
     beside: list[Shape] = []
     for shaft in layout.balance:
-        name, on_it = _balance(drawing, view, shaft, optimum, every)
-        wanted.append(name)
-        beside += on_it
+        name, outlines = _balance(drawing, view, shaft, optimum, every)
+        names_beside.append(name)
+        beside += outlines
     cranks = _cranks(drawing, view, machine) if isinstance(machine, CrankMachine) else _scroll(drawing, view, machine)
     drawing.circle(view.centre, 4, fill=INK)
     _sense(drawing, machine.rotation)
     pins = [FrontProjection(1.0, place).arc(_PIN, 0, 360) for place, _, _ in cranks]
-    labels(drawing, [*_crank_names(view, cranks), *_web_names(view, best, shapes), *wanted], [*shapes, *pins, *beside])
+    labels(
+        drawing,
+        [*_crank_names(view, cranks), *_web_names(view, best, shapes), *names_beside],
+        [*shapes, *pins, *beside],
+    )
     return drawing
 
 
@@ -73,8 +77,8 @@ def _balance(
     shaft = balance.shaft
     around = view._replace(centre=view(*shaft.axis))
     way = f"{'with' if shaft.speed_ratio > 0 else 'against'}, {'n' if abs(shaft.speed_ratio) == 1 else '2n'}"
-    on_it = ", ".join(f"{fitted.web.name} {_weight(fitted)}" for fitted in balance.best)
-    with drawing.group("balancer", f"{shaft.name}, {way}: {on_it or 'nothing'}"):
+    contents = ", ".join(f"{fitted.web.name} {_weight(fitted)}" for fitted in balance.best)
+    with drawing.group("balancer", f"{shaft.name}, {way}: {contents or 'nothing'}"):
         # the first circle is the axis, about which a page turns what is on it
         drawing.circle(around.centre, 3, MUTED, "white")
         for radius in sorted({web.radius_m for web in shaft.places if web.radius_m}):
@@ -150,7 +154,7 @@ def _rows(drawing: Drawing, view: FrontProjection, machine: CrankMachine) -> Ite
         if len(cranks) > 2 and len({throw for _, _, throw in group}) == len(cranks):
             names = "all throws"
         else:
-            names = _joined(name if name and len(cranks) <= 2 else f"throw {throw}" for _, name, throw in group)
+            names = _name_list(name if name and len(cranks) <= 2 else f"throw {throw}" for _, name, throw in group)
         end = view.at(_AXES, axis)
         with drawing.group("row", f"axis of {names}, {digits(axis)}°"):
             drawing.line([view.centre, end], MUTED, 0.9, "12 3 2 3")
@@ -187,7 +191,7 @@ def _cut(view: FrontProjection, fitted: Fitted, shape: Outline) -> Shape:
     hub = fitted.web.envelope.inner_radius_m if fitted.web.envelope else 0.0
     half_angle, chord = math.radians(shape.half_angle_deg), shape.chord_height_m is not None
     edges = bounded(shape.outer_radius_m, hub, half_angle, chord)
-    corners = points(turned(edges, math.radians(fitted.angle_deg - 90.0)), _FINE / view.scale)
+    corners = points(rotation(edges, math.radians(fitted.angle_deg - 90.0)), _FINE / view.scale)
     x0, y0 = view.centre
     return [(x0 + view.scale * x, y0 - view.scale * y) for x, y in corners]
 
@@ -200,16 +204,16 @@ def _cranks(drawing: Drawing, view: FrontProjection, machine: CrankMachine) -> l
     for radius in sorted({crank.crank_radius_m for _, crank in machine.cranks}):
         drawing.circle(view.centre, view.scale * radius, FAINT, dash="3 3")
     cranks = [(crank.crank_angle_deg % 360.0, name, crank.crank_radius_m) for name, crank in machine.cranks]
-    drawn = []
+    pins = []
     thin = len(cranks) > _MAX_NAMES
     for angle, group in _grouped(cranks):
         for radius in sorted({member[2] for member in group}, reverse=True):
             names, pin = [name for _, name, own in group if own == radius], view(radius, angle)
-            with drawing.group("throw", f"throw {_joined(names)} at {digits(angle)}°"):
+            with drawing.group("throw", f"throw {_name_list(names)} at {digits(angle)}°"):
                 drawing.line([view.centre, pin], INK, 1.0 if thin else 4.0)
                 drawing.circle(pin, _THIN_PIN if thin else _PIN, fill="white", width=1.0 if thin else 2.0)
-            drawn.append((pin, names, "throws"))
-    return drawn
+            pins.append((pin, names, "throws"))
+    return pins
 
 
 def _scroll(drawing: Drawing, view: FrontProjection, machine: OrbitMachine) -> list[Crank]:
@@ -235,7 +239,7 @@ def _crank_names(view: FrontProjection, cranks: Sequence[Crank]) -> Iterator[Lab
     if len(cranks) > _MAX_NAMES:
         return
     for (x, y), names, common in cranks:
-        text = f"{len(names)} {common}" if len(names) > 4 else _joined(names)
+        text = f"{len(names)} {common}" if len(names) > 4 else _name_list(names)
         # never on the crank itself
         yield Label((x, y + 17 if y > view.centre[1] + 1 else y - 17), text, INK)
 
@@ -250,7 +254,7 @@ def _web_names(view: FrontProjection, weights: Sequence[Fitted], shapes: Sequenc
         return
     for group in places.values():
         names = sorted(order[k].web.name for k in group)
-        text = f"{len(names)} webs" if len(names) > 4 else _joined(names)
+        text = f"{len(names)} webs" if len(names) > 4 else _name_list(names)
         first, shape = order[group[0]], shapes[group[0]]
         top = min(y for k in group for _, y in shapes[k])
         if abs(math.cos(math.radians(first.angle_deg))) > math.sqrt(0.5):
@@ -269,12 +273,12 @@ def _grouped(items: Iterable[Entry]) -> Iterator[tuple[float, list[Entry]]]:
         yield angle, list(group)
 
 
-def _joined(names: Iterable[str]) -> str:
+def _name_list(names: Iterable[str]) -> str:
     """Names as far as there is room for them."""
     texts = [shortened(name, 18) for name in dict.fromkeys(names)]
-    shown: list[str] = []
+    entries: list[str] = []
     for name in texts:
-        if shown and (len(shown) == 6 or sum(map(len, shown)) + len(name) > 36):
+        if entries and (len(entries) == 6 or sum(map(len, entries)) + len(name) > 36):
             break
-        shown.append(name)
-    return ", ".join(shown) + (f" and {len(texts) - len(shown)} more" if len(shown) < len(texts) else "")
+        entries.append(name)
+    return ", ".join(entries) + (f" and {len(texts) - len(entries)} more" if len(entries) < len(texts) else "")

@@ -24,24 +24,24 @@ class Label(NamedTuple):
     size: float = 13.0
 
 
-def labels(drawing: Drawing, wanted: Sequence[Label], shapes: Sequence[Shape]) -> None:
+def labels(drawing: Drawing, names: Sequence[Label], shapes: Sequence[Shape]) -> None:
     """Each name at its place, or at the nearest one above or below that is free, with a thin line back.
 
     Parameters
     ----------
     shapes : closed lines on which names are hard to read.
     """
-    taken: list[Box] = []
+    boxes: list[Box] = []
     bounded = [(_around(shape), shape) for shape in shapes]
     with drawing.group("names"):
-        for label in wanted:
-            box = _room(drawing, label, taken, bounded)
+        for label in names:
+            box = _room(drawing, label, boxes, bounded)
             if box is not None:
-                taken.append(box)
+                boxes.append(box)
                 _write(drawing, label, box)
 
 
-def _room(drawing: Drawing, label: Label, taken: Sequence[Box], shapes: Sequence[tuple[Box, Shape]]) -> Box | None:
+def _room(drawing: Drawing, label: Label, boxes: Sequence[Box], shapes: Sequence[tuple[Box, Shape]]) -> Box | None:
     """Where a name stands: clear of everything, or else of other names alone; None where it finds no room."""
     line = _LINE * label.size
     half = 0.5 * _LETTER * label.size * len(label.text) + 2.0
@@ -50,7 +50,7 @@ def _room(drawing: Drawing, label: Label, taken: Sequence[Box], shapes: Sequence
     for number in range(2 * _FARTHEST + 1):
         y = label.place[1] + (-1 if number % 2 else 1) * -(-number // 2) * line
         box = (x - half, y - line / 2, x + half, y + line / 2)
-        if box[1] < 0 or box[3] > drawing.height or any(_overlap(box, other) for other in taken):
+        if box[1] < 0 or box[3] > drawing.height or any(_overlap(box, neighbour) for neighbour in boxes):
             continue
         if not any(_overlap(box, around) and _meet(box, shape) for around, shape in shapes):
             return box

@@ -230,12 +230,12 @@ class Layout(_Part):
     @property
     def best(self) -> tuple[Fitted, ...]:
         """The counterweights on the crankshaft that can be seen."""
-        return tuple(self._seen(self.counterweights, self.machine.places))
+        return tuple(self._weights(self.counterweights, self.machine.places))
 
     @property
     def built(self) -> tuple[Fitted, ...]:
         """What is fitted in place of them and can be seen."""
-        return tuple(self._seen(self.fitted, self.machine.places))
+        return tuple(self._weights(self.fitted, self.machine.places))
 
     @property
     def balance(self) -> tuple[Balance, ...]:
@@ -245,13 +245,13 @@ class Layout(_Part):
         return tuple(
             Balance(
                 shaft,
-                tuple(self._seen(self.counterweights, shaft.places)),
-                tuple(self._seen(self.fitted, shaft.places)),
+                tuple(self._weights(self.counterweights, shaft.places)),
+                tuple(self._weights(self.fitted, shaft.places)),
             )
             for shaft in shafts
         )
 
-    def _seen(self, weights: Sequence[Weight | None], places: Sequence[Place]) -> Iterator[Fitted]:
+    def _weights(self, weights: Sequence[Weight | None], places: Sequence[Place]) -> Iterator[Fitted]:
         """Weights of a shaft with the radius of their own, of the web, or of the counterweight that they stand for."""
         webs = {web.name: web for web in places}
         radii = {counterweight.web: counterweight.radius_m for counterweight in self.counterweights if counterweight}

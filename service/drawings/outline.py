@@ -20,9 +20,9 @@ class Line:
     start: Point
     end: Point
 
-    def turned(self, angle: float) -> "Line":
+    def rotation(self, angle: float) -> "Line":
         """About the shaft, counter-clockwise."""
-        return Line(_turned(self.start, angle), _turned(self.end, angle))
+        return Line(_rotation(self.start, angle), _rotation(self.end, angle))
 
 
 @dataclass(frozen=True)
@@ -46,7 +46,7 @@ class Arc:
         """Whether the counterweight lies within the arc."""
         return self.last > self.first
 
-    def turned(self, angle: float) -> "Arc":
+    def rotation(self, angle: float) -> "Arc":
         """About the shaft, counter-clockwise."""
         return Arc(self.radius, self.first + angle, self.last + angle)
 
@@ -77,8 +77,8 @@ def _inside(outer: float, hub: float, half_angle: float, chord: bool) -> Arc | P
     height = outer * cos(half_angle)
     if height >= hub:
         return None
-    seen = acos(height / hub)
-    return Arc(hub, pi / 2 + seen, pi / 2 - seen)
+    hub_angle = acos(height / hub)
+    return Arc(hub, pi / 2 + hub_angle, pi / 2 - hub_angle)
 
 
 def _closed(rim: Arc, inside: Arc | Point | None) -> Outline:
@@ -89,9 +89,9 @@ def _closed(rim: Arc, inside: Arc | Point | None) -> Outline:
     return rim, Line(rim.end, inside), Line(inside, rim.start)
 
 
-def turned(edges: Outline, angle: float) -> Outline:
+def rotation(edges: Outline, angle: float) -> Outline:
     """An outline turned about the shaft, counter-clockwise, rad."""
-    return tuple(edge.turned(angle) for edge in edges)
+    return tuple(edge.rotation(angle) for edge in edges)
 
 
 def points(edges: Outline, tolerance: float) -> Iterator[Point]:
@@ -108,6 +108,6 @@ def points(edges: Outline, tolerance: float) -> Iterator[Point]:
                 yield edge.radius * cos(angle), edge.radius * sin(angle)
 
 
-def _turned(point: Point, angle: float) -> Point:
+def _rotation(point: Point, angle: float) -> Point:
     x, y = point
     return x * cos(angle) - y * sin(angle), x * sin(angle) + y * cos(angle)

@@ -133,7 +133,7 @@ def _height(drawing: Drawing, view: _View, part: Part) -> None:
     for y in (low, high):
         drawing.line([(left - _SERIF, y), (left + 12.0, y)], MUTED, 0.7)
     drawing.line([(left, low), (left, high)], MUTED, 0.7)
-    drawing.text((left - 5.0, 0.5 * (low + high)), millimetres(height), "middle", turned=True)
+    drawing.text((left - 5.0, 0.5 * (low + high)), millimetres(height), "middle", vertical=True)
 
 
 def _width(drawing: Drawing, view: _View, part: Part) -> None:
@@ -183,12 +183,12 @@ def _as_built(part: Part, built: AsBuilt | None) -> Iterator[str]:
         if pair.web not in webs:
             continue
         best, mass = pair.masses
-        angle, turned = "", ""
-        if pair.optimum is not None and pair.turned_deg is not None:
-            angle, turned = f" at {pair.optimum.angle_deg:.4g}°", f" and {pair.turned_deg:+.3g}°"
+        angle, rotation = "", ""
+        if pair.optimum is not None and pair.rotation_deg is not None:
+            angle, rotation = f" at {pair.optimum.angle_deg:.4g}°", f" and {pair.rotation_deg:+.3g}°"
         yield (
             f"{shortened(pair.web, 24)}: as built {mass:.6g} kg; optimum {best:.6g} kg{angle}; "
-            f"difference {mass - best:+.4g} kg{turned}{_tolerance(built, best)}"
+            f"difference {mass - best:+.4g} kg{rotation}{_tolerance(built, best)}"
         )
 
 

@@ -41,9 +41,9 @@ def side(layout: Layout, dimensions: bool = False) -> Drawing:
     machine, planes = layout.machine, list(_planes(layout))
     reference = layout.reference_plane_m
     view = _view(layout, planes, _STRAIGHT if dimensions else OBLIQUE)
-    named = planes if len(planes) <= _MAX_NAMES else []
+    labels_at = planes if len(planes) <= _MAX_NAMES else []
     below = _BOTTOM + (_DIMENSIONS if dimensions else 0.0)
-    lines = list(_lines(view, named))
+    lines = list(_lines(view, labels_at))
     height = below + 14.0 + _LINE * max([2, *(row + 1 for _, _, row in lines)])
     caption = ", ".join(f"{plane.name} at {digits(plane.position_m)} m" for plane in planes)
     drawing = Drawing(WIDTH, height, f"From the side: {caption}.")

@@ -77,12 +77,12 @@ class Drawing:
         anchor: Anchor = "start",
         size: float = 11.0,
         fill: str = INK,
-        turned: bool = False,
+        vertical: bool = False,
         halo: bool = False,
     ) -> None:
-        """Text on a base line; ``turned`` reads upwards, ``halo`` keeps it legible over lines."""
+        """Text on a base line; ``vertical`` reads upwards, ``halo`` keeps it legible over lines."""
         x, y = (_short(value) for value in place)
-        more = {"transform": f"rotate(-90 {x} {y})"} if turned else {}
+        more = {"transform": f"rotate(-90 {x} {y})"} if vertical else {}
         style = {"font-size": _short(size), "text-anchor": anchor}
         if halo:
             more |= {"stroke": "white", "stroke-width": "3", "stroke-linejoin": "round", "paint-order": "stroke"}

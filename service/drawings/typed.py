@@ -54,8 +54,8 @@ def _cut(rest: dict[str, Any], error: ValidationError, why: dict[Path, str]) -> 
     for detail in error.errors(include_url=False, include_input=False):
         missing = detail["type"] == "missing"
         path = locate(rest, detail["loc"], missing)
-        named = (*path, *_discriminator(detail)) if path else path
-        why.setdefault(named, message_of(detail))
+        place = (*path, *_discriminator(detail)) if path else path
+        why.setdefault(place, message_of(detail))
         wrong.append(path[:-1] if missing else path)
     for path in wrong:
         if len(path) < 2:

@@ -57,9 +57,9 @@ class Loads:
 
     def end(self, owner: str, lasted_s: float, computed_s: float) -> None:
         """End a turn that an owner had until now, in which a core computed for part of the time [s]."""
-        counted = -math.expm1(-lasted_s / LATELY_S)
+        weight = -math.expm1(-lasted_s / LATELY_S)
         share = min(1.0, computed_s / lasted_s) if lasted_s > 0 else 1.0
-        self._change(owner, -1, (share - 1.0) * counted)
+        self._change(owner, -1, (share - 1.0) * weight)
 
     def _change(self, owner: str, turns: int, average: float) -> None:
         at = self._clock()

@@ -34,7 +34,7 @@ class Turn:
 
     turns: "FairQueue"
     owner: str
-    wanted: bool = False
+    asks_for_place: bool = False
     begun: bool = False
     begun_at: float = 0.0
     computed_s: float | None = None
@@ -68,7 +68,7 @@ class Turn:
     def end(self) -> None:
         """It was had, or is not wanted any more."""
         # else nobody knows of it
-        if self.wanted and not self.ended:
+        if self.asks_for_place and not self.ended:
             self.turns.end(self)
 
     async def __aenter__(self) -> "Turn":
@@ -162,9 +162,9 @@ class FairQueue:
 
     def ask(self, turn: Turn) -> None:
         """Have it begin, or wait for its decision."""
-        if turn.wanted:
+        if turn.asks_for_place:
             return
-        turn.wanted = True
+        turn.asks_for_place = True
         if turn.owner not in self._accounts:
             self._accounts.come(turn.owner)
         # whoever waits may not begin, so nobody is overtaken

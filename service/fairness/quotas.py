@@ -14,7 +14,7 @@ class Quota:
 
     def __init__(self, share: Share) -> None:
         self.share = share
-        self._held: dict[str, int] = {}
+        self._amounts: dict[str, int] = {}
         self._total = 0
 
     def take(self, client: str, amount: int = 1, many: bool = False) -> bool:
@@ -24,26 +24,26 @@ class Quota:
         ----------
         many : it stands for many clients, who have more than what is there for each.
         """
-        share, then = self.share, self.held(client) + amount
+        share, then = self.share, self.holding_of(client) + amount
         reserve = share.reserve if then <= share.assured else 0
         if self._total + amount > share.altogether + reserve or not (
             many or then <= max(share.per_client, share.assured)
         ):
             return False
-        self._held[client] = then
+        self._amounts[client] = then
         self._total += amount
         return True
 
     def give(self, client: str, amount: int = 1) -> None:
         """Have a client hold less."""
         self._total -= amount
-        left = self._held.pop(client, 0) - amount
+        left = self._amounts.pop(client, 0) - amount
         if left:
-            self._held[client] = left
+            self._amounts[client] = left
 
-    def held(self, client: str) -> int:
+    def holding_of(self, client: str) -> int:
         """What a client holds."""
-        return self._held.get(client, 0)
+        return self._amounts.get(client, 0)
 
 
 def quotas(shares: Mapping[Resource, Share]) -> Mapping[Resource, Quota]:
@@ -57,7 +57,7 @@ class Holding:
 
     quotas: Mapping[Resource, Quota]
     who: str
-    _held: dict[Resource, int] = field(default_factory=dict)
+    _amounts: dict[Resource, int] = field(default_factory=dict)
 
     def take(self, resource: Resource, amount: int = 1) -> None:
         """Hold more.
@@ -70,18 +70,18 @@ class Holding:
         if not quota.take(self.who, amount):
             units = quota.share.unit
             raise OverShare(f"Too many {units} are open for this client; try again when some of them have ended.")
-        self._held[resource] = self._held.get(resource, 0) + amount
+        self._amounts[resource] = self._amounts.get(resource, 0) + amount
 
     def give(self, resource: Resource, amount: int) -> None:
         """Hold less."""
         self.quotas[resource].give(self.who, amount)
-        self._held[resource] -= amount
+        self._amounts[resource] -= amount
 
     def end(self) -> None:
         """Hold nothing any more."""
-        for resource, amount in self._held.items():
+        for resource, amount in self._amounts.items():
             self.quotas[resource].give(self.who, amount)
-        self._held.clear()
+        self._amounts.clear()
 
 
 def holding(request: Request) -> Holding:

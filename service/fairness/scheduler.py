@@ -38,13 +38,13 @@ class FairScheduler:
         self._call_soon = call_soon
         self._few: OrderedDict[str, deque[Work]] = OrderedDict()
         self._many: OrderedDict[str, deque[Work]] = OrderedDict()
-        self._taken = False
+        self._is_busy = False
         self._since = 0
 
     @property
     def waiting(self) -> int:
         """Pieces of work that wait."""
-        return sum(len(own) for those in (self._few, self._many) for own in those.values())
+        return sum(len(own) for clients in (self._few, self._many) for own in clients.values())
 
     def ask(self, client: str, work: Work) -> bool:
         """Have some work done, in the order in which its client asks; whether it has been done already."""
@@ -52,10 +52,10 @@ class FairScheduler:
             # what waited in a loop that has ended is gone with it
             self._loop = loop
             self._begin(loop.call_soon)
-        if self._taken:
+        if self._is_busy:
             self._wait(client, work)
             return False
-        self._taken = True
+        self._is_busy = True
         self._call_soon(self._next)
         work()
         return True
@@ -64,8 +64,8 @@ class FairScheduler:
         own = self._many.get(client)
         if own is None:
             own = self._few.pop(client, None)
-            those = self._few if own is None else self._many
-            own = those[client] = own or deque()
+            clients = self._few if own is None else self._many
+            own = clients[client] = own or deque()
         own.append(work)
 
     async def turn(self, client: str) -> None:
@@ -82,7 +82,7 @@ class FairScheduler:
 
     def _next(self) -> None:
         if not (self._few or self._many):
-            self._taken = False
+            self._is_busy = False
             return
         idle = not (self._few or self._busy())
         self._call_soon(self._next)

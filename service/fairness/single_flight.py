@@ -45,17 +45,17 @@ class SingleFlight:
             self._own: dict[str, asyncio.Semaphore] = {}
         return loop
 
-    async def at(self, who: str, what: Hashable, look: Callable[[], Result]) -> Result:
+    async def at(self, who: str, key: Hashable, look: Callable[[], Result]) -> Result:
         """What is found by a look that begins from now on.
 
         Parameters
         ----------
-        what : looks of one client at the same find the same.
+        key : looks of one client at the same find the same.
         """
         loop = self._of_loop()
-        shared = self._tasks.get((who, what))
+        shared = self._tasks.get((who, key))
         if shared is None:
-            shared = self._tasks[who, what] = loop.create_task(self._taken(loop, who, what, look))
+            shared = self._tasks[who, key] = loop.create_task(self._result(loop, who, key, look))
             # there may be nobody left to be told
             shared.add_done_callback(lambda task: task.cancelled() or task.exception())
         # who leaves takes nothing away from the others
@@ -64,15 +64,15 @@ class SingleFlight:
         result: Result = shared.result()
         return result
 
-    async def _taken(
-        self, loop: asyncio.AbstractEventLoop, who: str, what: Hashable, look: Callable[[], Result]
+    async def _result(
+        self, loop: asyncio.AbstractEventLoop, who: str, key: Hashable, look: Callable[[], Result]
     ) -> Result:
         computed_s = took_s = 0.0
 
         def work() -> Result:
             nonlocal computed_s, took_s
             # who asks from now on needs a later one
-            del self._tasks[who, what]
+            del self._tasks[who, key]
             begun, begun_at = time.thread_time(), time.monotonic()
             try:
                 return look()
@@ -87,10 +87,10 @@ class SingleFlight:
                 turn.computed_s = computed_s
             return result
         finally:
-            others = self._others(who)
-            loop.call_later(_REST * (computed_s + others * took_s), self._go_on, who, own)
+            waiting_count = self._waiting_count(who)
+            loop.call_later(_REST * (computed_s + waiting_count * took_s), self._go_on, who, own)
 
-    def _others(self, who: str) -> int:
+    def _waiting_count(self, who: str) -> int:
         """How many other clients wait, if this one does too."""
         waiting = {client for client, _ in self._tasks}
         return len(waiting - {who}) if who in waiting else 0
@@ -102,7 +102,7 @@ class SingleFlight:
             del self._own[who]
 
 
-async def shared_look(request: Request, what: Hashable, look: Callable[[], Result]) -> Result:
+async def shared_look(request: Request, key: Hashable, look: Callable[[], Result]) -> Result:
     """What a look for a request finds, by the looks of the application."""
     looks: SingleFlight = request.app.state.looks
-    return await looks.at(holding(request).who, what, look)
+    return await looks.at(holding(request).who, key, look)

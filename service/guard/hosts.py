@@ -21,11 +21,11 @@ class Hosts:
 
     Parameters
     ----------
-    others : further ones; ``*`` is any.
+    hosts : further ones; ``*`` is any.
     """
 
-    def __init__(self, others: Iterable[str]) -> None:
-        self._others = frozenset(map(str.lower, others))
+    def __init__(self, hosts: Iterable[str]) -> None:
+        self._hosts = frozenset(map(str.lower, hosts))
 
     def require(self, scope: Scope) -> None:
         """Go on only if a request asks for one of them; browsers always say for which.
@@ -35,10 +35,10 @@ class Hosts:
         ForeignHost
         """
         text = header(scope, b"host")
-        if text is None or "*" in self._others:
+        if text is None or "*" in self._hosts:
             return
         match = _HOST.fullmatch(text)
         host = (match[1] or match[2]).lower().removesuffix(".") if match else ""
         came_to = (scope.get("server") or ("",))[0]
-        if not (host in self._others or is_loopback(host) or host.endswith(".localhost") or (host and host == came_to)):
+        if not (host in self._hosts or is_loopback(host) or host.endswith(".localhost") or (host and host == came_to)):
             raise ForeignHost

@@ -254,11 +254,11 @@ class Keys:
             elif before is not None and now is not None and before != now:
                 _note("changed", now)
 
-    def _note_once(self, what: str, record: KeyRecord) -> None:
+    def _note_once(self, event: str, record: KeyRecord) -> None:
         # each request is a line of its own, which names the key
-        if (what, record.id) not in self._noted:
-            self._noted.add((what, record.id))
-            _note(what, record)
+        if (event, record.id) not in self._noted:
+            self._noted.add((event, record.id))
+            _note(event, record)
 
     def _stamped(self) -> tuple[int, int, int]:
         try:
@@ -287,10 +287,10 @@ def keys(settings: Settings) -> Keys | None:
     )
 
 
-def _note(what: str, record: KeyRecord) -> None:
+def _note(event: str, record: KeyRecord) -> None:
     """A line of the audit: of a key its public part, never the key."""
     about = {"key": record.id, "owner": record.owner, "scopes": " ".join(record.scopes)}
-    _AUDIT.info("key %s %s", record.id, what, extra={**about, "about": about})
+    _AUDIT.info("key %s %s", record.id, event, extra={**about, "about": about})
 
 
 _RECORD = TypeAdapter(KeyRecord)

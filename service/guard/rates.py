@@ -76,10 +76,10 @@ class RateLimits:
     async def _count(self, kind: str, name: str, limit: RateLimitItem | None) -> Rate | None:
         if limit is None:
             return None
-        counted = await self._limiter.hit(limit, kind, name)
+        success = await self._limiter.hit(limit, kind, name)
         reset, remaining = await self._limiter.get_window_stats(limit, kind, name)
         rate = Rate(kind, limit, int(remaining), max(1, math.ceil(reset - time.time())))
-        if not counted:
+        if not success:
             raise TooManyRequests(rate)
         return rate
 

@@ -7,7 +7,7 @@ from typing import TypeVar
 from starlette.requests import Request
 
 from service.common.coding import CODINGS, Coding
-from service.common.headers import joined
+from service.common.headers import header_list
 
 Offer = TypeVar("Offer")
 Name = TypeVar("Name", bound=str)
@@ -50,13 +50,13 @@ _cached = lru_cache(_CACHE_SIZE)(_preferred)
 
 def negotiate(request: Request, offered: Mapping[str, Offer]) -> Offer | None:
     """What the header Accept of a request likes best of what there is, by media type; None if it accepts nothing."""
-    chosen = preferred(joined(request.scope, b"accept"), tuple(offered))
-    return None if chosen is None else offered[chosen]
+    media_type = preferred(header_list(request.scope, b"accept"), tuple(offered))
+    return None if media_type is None else offered[media_type]
 
 
 def coding_of(request: Request) -> Coding | None:
     """What an answer may be compressed by; None for who takes it as it is, or says nothing."""
-    return preferred(joined(request.scope, b"accept-encoding") or "identity", CODINGS)
+    return preferred(header_list(request.scope, b"accept-encoding") or "identity", CODINGS)
 
 
 def _quality(name: str, ranges: Mapping[str, float]) -> float:

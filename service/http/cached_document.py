@@ -76,9 +76,9 @@ class Shelf(Generic[Name]):
         """A document, for the answer to a request; the event loop does not wait until it is made."""
         if name in self._there:
             return self._there[name]
-        return await threads_of(request).run(holding(request).who, partial(self.made, name))
+        return await threads_of(request).run(holding(request).who, partial(self.document, name))
 
-    def made(self, name: Name) -> CachedDocument:
+    def document(self, name: Name) -> CachedDocument:
         """A document with all that is sent of it; who asks while it is made waits for the same."""
         with self._making:
             if name not in self._there:

@@ -82,7 +82,7 @@ class Computing:
             request.state.body = body
         return body
 
-    def checked(self, model: type[Question], body: bytes) -> Question:
+    def question(self, model: type[Question], body: bytes) -> Question:
         """The request in a body; one that is too large for this service is refused.
 
         Raises
@@ -110,7 +110,7 @@ class Computing:
         body = await self._body(request)
 
         def accept() -> Response:
-            question = self.checked(computation.request_model, body).model_dump_json().encode()
+            question = self.question(computation.request_model, body).model_dump_json().encode()
             return accepted(request, *desk_of(request).later(computation.name, question, key, body))
 
         # a job is asked for and answered in JSON; other forms are answered at once, as RFC 7240 allows
@@ -132,7 +132,7 @@ class Computing:
         if reply.coding is not None:
             headers.append((b"content-encoding", reply.coding.encode()))
         if reply.file is None:
-            return _Written(reply.content, headers)
+            return _RawResponse(reply.content, headers)
         with ExitStack() as refused:
             refused.enter_context(reply.file)
             holding(request).take("files", reply.size)
@@ -202,7 +202,7 @@ def _wishes_of(headers: tuple[Header, ...], computation: Computation) -> _Wishes
     return _Wishes.of(Request({"type": "http", "headers": headers}), computation)
 
 
-class _Written(Response):
+class _RawResponse(Response):
     """Bytes and headers as they go out."""
 
     def __init__(self, content: bytes, headers: list[Header]) -> None:
@@ -212,8 +212,8 @@ class _Written(Response):
 
 def _form(request: Request, computation: Computation) -> Form:
     """The form that a client accepts best; of what there is in one form only, and of answers in JSON, that one."""
-    first, *others = computation.forms
-    if not others:
+    first, *rest = computation.forms
+    if not rest:
         return first
     offered = {form.media_type: form for form in computation.forms}
     form = negotiate(request, offered)

@@ -12,7 +12,7 @@ from service.http.methods import Methods
 from service.wire.refusal import response
 
 
-def joined(*tables: FaultTable) -> FaultTable:
+def union(*tables: FaultTable) -> FaultTable:
     """One table of the faults of all rooms.
 
     Raises

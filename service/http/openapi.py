@@ -50,8 +50,8 @@ class Documented(FastAPI):
 
     def __init__(self, *, keyed: bool, **options: Any) -> None:
         self._keyed = keyed
-        self._written = Shelf(self._document)
-        described = [{"name": name, "description": what} for name, what in _TAGS.items()]
+        self._documents = Shelf(self._document)
+        described = [{"name": name, "description": words} for name, words in _TAGS.items()]
         super().__init__(**options, openapi_tags=described)
 
     def openapi(self) -> dict[str, Any]:
@@ -64,9 +64,9 @@ class Documented(FastAPI):
                 SweepRequest,
                 Problem,
             ]
-            _, made = models_json_schema([(model, "validation") for model in models], ref_template=MODEL_REF)
+            _, definitions = models_json_schema([(model, "validation") for model in models], ref_template=MODEL_REF)
             # a model that is asked and answered, as a cylinder, is described as it is asked: that holds for both
-            schemas |= made["$defs"]
+            schemas |= definitions["$defs"]
             document["servers"] = [{"url": "/"}]
             document["components"] |= {"headers": {**HEADERS}, "parameters": {**PARAMETERS}}
             document["components"]["securitySchemes"] = {**_SECURITY}
@@ -99,7 +99,7 @@ class Documented(FastAPI):
         """Answer with the document."""
 
         async def answer(request: Request) -> Response:
-            document = await self._written.take(request, request.scope.get("root_path", ""))
+            document = await self._documents.take(request, request.scope.get("root_path", ""))
             return document.answer(request)
 
         self.add_route("/openapi.json", answer, include_in_schema=False)

@@ -117,16 +117,16 @@ def headers(*names: str) -> Described:
 
 def accept(*media_types: str) -> Described:
     """The header by which a client chooses a form; generators that follow the specification leave it out."""
-    listed = ", ".join(f"`{media_type}`" for media_type in media_types)
-    what = f"the forms of the answer that the client takes: {listed}; the first one where it takes any"
-    return _in_header("Accept", what, type="string", examples=list(media_types))
+    types = ", ".join(f"`{media_type}`" for media_type in media_types)
+    words = f"the forms of the answer that the client takes: {types}; the first one where it takes any"
+    return _in_header("Accept", words, type="string", examples=list(media_types))
 
 
 def problems(*statuses: int) -> Responses:
     """Responses with problem details: those of the statuses, and any other failure."""
     content = {PROBLEM_JSON: {"schema": ref(Problem)}}
-    listed: tuple[int | str, ...] = (*statuses, "default")
-    return {status: {"description": _DESCRIPTIONS[status], "content": content, **_more(status)} for status in listed}
+    keys: tuple[int | str, ...] = (*statuses, "default")
+    return {status: {"description": _DESCRIPTIONS[status], "content": content, **_more(status)} for status in keys}
 
 
 def _more(status: int | str) -> Described:
@@ -134,9 +134,9 @@ def _more(status: int | str) -> Described:
     return {"headers": headers(*more[status])} if status in more else {}
 
 
-def unchanged(content: Described | None = None, *others: str, description: str = "the document") -> Responses:
+def unchanged(content: Described | None = None, *names: str, description: str = "the document") -> Responses:
     """A document that is sent once: with its tag, or 304 to a client that has it."""
-    response: Described = {"description": description, "headers": headers("ETag", *others)}
+    response: Described = {"description": description, "headers": headers("ETag", *names)}
     if content is not None:
         response["content"] = content
     return {200: response, 304: {"description": "the client has the document already", "headers": headers("ETag")}}

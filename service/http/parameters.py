@@ -18,8 +18,8 @@ class UnknownParameter(ValueError):
     """The query has parameters that the route does not know; ``problems`` name them."""
 
     def __init__(self, names: Collection[str]) -> None:
-        shown = list(dict.fromkeys(name[:_LONGEST_NAME] for name in names))[:_MOST]
-        self.problems = [FieldProblem(("query", name), "unknown parameter") for name in shown]
+        words = list(dict.fromkeys(name[:_LONGEST_NAME] for name in names))[:_MOST]
+        self.problems = [FieldProblem(("query", name), "unknown parameter") for name in words]
         super().__init__("unknown parameter")
 
 

@@ -76,12 +76,12 @@ def _too_large(max_bytes: int) -> BodyTooLarge:
     return BodyTooLarge(f"The body is larger than {max_bytes} bytes.")
 
 
-def announced(request: Request, other: str | None = None) -> str:
+def announced(request: Request, alternative: str | None = None) -> str:
     """The announced content: ``application/json``, also for ``application/*+json``, or another media type.
 
     Parameters
     ----------
-    other : that is read too, if any.
+    alternative : that is read too, if any.
 
     Raises
     ------
@@ -92,10 +92,10 @@ def announced(request: Request, other: str | None = None) -> str:
     coding = header(request.scope, b"content-encoding")
     if coding is not None and coding.strip().lower() != "identity":
         raise UnsupportedMedia("Send the body uncompressed.")
-    if other is not None and kind == other:
-        return other
+    if alternative is not None and kind == alternative:
+        return alternative
     if not (kind == "application/json" or (kind.startswith("application/") and kind.endswith("+json"))):
-        choices = "application/json" + ("" if other is None else f" or {other}")
+        choices = "application/json" + ("" if alternative is None else f" or {alternative}")
         raise UnsupportedMedia(f"Send the body as Content-Type: {choices}.")
     # charset* and charset*0 are forms of mail, which HTTP does not have here
     if any(name.startswith("charset") and (name, value) not in _UTF_8 for name, value in parameters):

@@ -5,7 +5,7 @@ import re
 from starlette.requests import Request
 from starlette.responses import Response
 
-from service.common.headers import header, joined
+from service.common.headers import header, header_list
 from service.guard.keys import caller_of
 from service.guard.refusals import BadHeader
 from service.jobs.job import Job
@@ -42,7 +42,7 @@ def idempotency_key(request: Request) -> str | None:
 
 def prefers_later(request: Request) -> bool:
     """Whether the client wants to be answered later (RFC 7240)."""
-    return _PREFERS.search(joined(request.scope, b"prefer")) is not None
+    return _PREFERS.search(header_list(request.scope, b"prefer")) is not None
 
 
 def accepted(request: Request, job: Job, new: bool) -> Response:

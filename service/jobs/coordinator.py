@@ -190,10 +190,10 @@ class Coordinator:
         if len(came) > _AT_A_TIME:
             # leases are renewed and chunks given out in between
             self._wake.set()
-        for job, some in groupby(sorted(came[:_AT_A_TIME], key=_job), key=_job):
-            its = list(some)
-            self._keep_rows(job, [(flight.chunk, flight.future.result()) for flight in its])
-            gone = set(its)
+        for job, group in groupby(sorted(came[:_AT_A_TIME], key=_job), key=_job):
+            flights = list(group)
+            self._keep_rows(job, [(flight.chunk, flight.future.result()) for flight in flights])
+            gone = set(flights)
             self._flights = [flight for flight in self._flights if flight not in gone]
 
     def _keep_rows(self, job: str, came: Sequence[tuple[Chunk, ChunkResult]]) -> None:
@@ -245,8 +245,8 @@ class Coordinator:
         """Have a chunk computed again whose file is not what was written."""
         record = damage.record
         if self._leases.reopen(job, record):
-            what = f"rows {record.start} to {record.stop - 1}" if record.rows else "selected rows"
-            _LOG.error("job %s: the file of the %s is %s; it is made again", job, what, damage.reason)
+            words = f"rows {record.start} to {record.stop - 1}" if record.rows else "selected rows"
+            _LOG.error("job %s: the file of the %s is %s; it is made again", job, words, damage.reason)
         self.start()
 
     def _restart(self, broken: bool) -> None:
@@ -288,7 +288,7 @@ class Coordinator:
         if not self._active:
             return
         if self._suspects and not self._flights:
-            chunk = self._leases.claim(self._name, self._pace.lease_s, attempted=True, others=self._later)
+            chunk = self._leases.claim(self._name, self._pace.lease_s, attempted=True, exclusions=self._later)
             if chunk is not None:
                 self._submit(chunk)
                 return
@@ -296,8 +296,8 @@ class Coordinator:
         window = self._engine.window()
         while not self._suspects and not self._stopping and len(self._flights) < window:
             # not all at once, as the next may be somebody else's turn
-            some = min(max(1, window // _TURNS), window - len(self._flights))
-            claimed = self._leases.claim_some(self._name, self._pace.lease_s, some, others=self._later)
+            count = min(max(1, window // _TURNS), window - len(self._flights))
+            claimed = self._leases.claim_chunks(self._name, self._pace.lease_s, count, exclusions=self._later)
             if not claimed:
                 # what is left, if anything, went wrong before or is leased
                 self._suspects = True

@@ -57,7 +57,7 @@ class Database:
         self._writer = self._engine.execution_options(immediate=True)
         self._folder = url.parent if isinstance(url, Path) else None
         self._file = _file(where)
-        self._made = False
+        self._has_tables = False
 
     @contextmanager
     def read(self) -> Iterator[Connection]:
@@ -96,7 +96,7 @@ class Database:
             pass
 
     def _make_tables(self) -> None:
-        if not self._made:
+        if not self._has_tables:
             if self._folder is not None:
                 make_folder(self._folder)
             if self._file is not None:
@@ -106,7 +106,7 @@ class Database:
                     # two services that start together: CREATE TABLE IF NOT EXISTS alone is not safe against itself
                     connection.exec_driver_sql("SELECT pg_advisory_xact_lock(7021962)")
                 prepare(connection)
-            self._made = True
+            self._has_tables = True
 
     @contextmanager
     def _unavailable(self) -> Iterator[None]:
@@ -118,7 +118,7 @@ class Database:
                 raise
             if _knows_other_tables(error):
                 # somebody has changed them since: whoever asks next is told what is wrong
-                self._made = False
+                self._has_tables = False
             full = getattr(error.orig, "sqlite_errorcode", None) == sqlite3.SQLITE_FULL
             raise DatabaseUnavailable(f"the job database does not answer: {error.orig}", full) from error
         except (sqlite3.Error, PoolTimeout, OSError) as error:

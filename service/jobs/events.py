@@ -35,9 +35,9 @@ def news(jobs: OwnerJobs, job: Job, prefix: str) -> News:
 class _Look:
     """A look at some jobs, each with the prefix of who watches it, that is yet to be taken, or has been."""
 
-    wanted: set[tuple[str, str]] = field(default_factory=set)
+    keys: set[tuple[str, str]] = field(default_factory=set)
     call: Event = field(default_factory=Event)
-    taken: Event = field(default_factory=Event)
+    begun: Event = field(default_factory=Event)
     news: Mapping[tuple[str, str], News] = field(default_factory=dict)
     failure: Exception | None = None
 
@@ -58,11 +58,11 @@ class Watch:
             await sleep(_POLL_S)
             look, self._next = self._next, _Look()
             try:
-                latest = look.news = await to_thread.run_sync(self._seen, look.wanted, latest, limiter=self._thread)
+                latest = look.news = await to_thread.run_sync(self._news, look.keys, latest, limiter=self._thread)
             except Exception as error:
                 # for the streams to judge; the next look may succeed
                 look.failure = error
-            look.taken.set()
+            look.begun.set()
 
     async def next(self, job: str, prefix: str) -> News:
         """What is known of a job after the next look.
@@ -72,26 +72,26 @@ class Watch:
         UnknownJob, DatabaseUnavailable
         """
         look = self._next
-        look.wanted.add((job, prefix))
+        look.keys.add((job, prefix))
         look.call.set()
-        await look.taken.wait()
+        await look.begun.wait()
         if look.failure is not None:
             raise look.failure
         if (job, prefix) not in look.news:
             raise UnknownJob(job)
         return look.news[job, prefix]
 
-    def _seen(
-        self, wanted: set[tuple[str, str]], before: Mapping[tuple[str, str], News]
+    def _news(
+        self, keys: set[tuple[str, str]], before: Mapping[tuple[str, str], News]
     ) -> Mapping[tuple[str, str], News]:
-        there = {job.id: job for job in self._jobs.those({job for job, _ in wanted})}
-        seen = {}
-        for name, prefix in wanted:
+        there = {job.id: job for job in self._jobs.by_ids({job for job, _ in keys})}
+        result = {}
+        for name, prefix in keys:
             job, old = there.get(name), before.get((name, prefix))
             if job is not None:
                 unchanged = old is not None and old.job.version == job.version
-                seen[name, prefix] = old if old is not None and unchanged else news(self._jobs, job, prefix)
-        return seen
+                result[name, prefix] = old if old is not None and unchanged else news(self._jobs, job, prefix)
+        return result
 
 
 async def events(

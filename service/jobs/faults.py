@@ -17,9 +17,9 @@ def _not_finished(error: NotFinished) -> Fault:
 
 def _database(error: DatabaseUnavailable) -> Fault:
     # where it is, and as whom it was asked, is for the log
-    what = "has no room left" if error.full else "is locked, or does not answer"
+    words = "has no room left" if error.full else "is locked, or does not answer"
     return Fault(
-        503, "Database unavailable", f"The job database {what}; try again later.", headers={"Retry-After": "5"}
+        503, "Database unavailable", f"The job database {words}; try again later.", headers={"Retry-After": "5"}
     )
 
 

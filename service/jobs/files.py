@@ -143,7 +143,7 @@ class JobFiles:
         self._write(self.piece(job, record), content)
         return record
 
-    def named(self, job: str, record: Record) -> Record:
+    def renamed_file(self, job: str, record: Record) -> Record:
         """Write a file that is older than digests once more, under the name that its content gives it.
 
         The older one stays until the database knows the digest, so that a crash in between loses nothing.
@@ -205,12 +205,12 @@ class JobFiles:
 
     def tidy(self, job: str, names: Iterable[str], records: Iterable[Record]) -> int:
         """Remove those of some names that are no file of the job; how many that were."""
-        stored = list(records)
-        expected = {_FLAG, *(self.piece(job, record).name for record in stored)}
+        files = list(records)
+        names_of_files = {_FLAG, *(self.piece(job, record).name for record in files)}
         # a reader may be writing them once more, or about to tell the database their digests
-        older = {_rows(record) for record in stored if record.digest is None}
+        older = {_rows(record) for record in files if record.digest is None}
         gone = 0
-        for name in set(names) - expected:
+        for name in set(names) - names_of_files:
             if _rows_of(name.removeprefix(HALF)) in older:
                 continue
             with suppress(OSError):

@@ -24,5 +24,5 @@ class RunningChunk:
     def rows_came(self) -> bool:
         """Whether it is done, and its rows are wanted."""
         future = self.future
-        wanted = self.chunk.rows > 0 and not self.dropped
-        return wanted and future.done() and not future.cancelled() and future.exception() is None
+        has_rows = self.chunk.rows > 0 and not self.dropped
+        return has_rows and future.done() and not future.cancelled() and future.exception() is None

@@ -37,7 +37,7 @@ class ResultWriter:
         """
         for chunk, piece in came:
             self._tell_faults(chunk, piece)
-        records, error = self._written(came)
+        records, error = self._records(came)
         computed = [
             Computed(chunk, piece.failed, str(record.digest), record.bytes, piece.invalid)
             for (chunk, piece), record in zip(came, records, strict=False)
@@ -65,7 +65,7 @@ class ResultWriter:
             _LOG.error("job %s: rows %d to %d: %s", chunk.job, chunk.start, chunk.stop - 1, fault)
         self.faults += len(piece.faults)
 
-    def _written(self, came: Sequence[tuple[Chunk, ChunkResult]]) -> tuple[list[Record], CannotWrite | None]:
+    def _records(self, came: Sequence[tuple[Chunk, ChunkResult]]) -> tuple[list[Record], CannotWrite | None]:
         """The files up to the first that cannot be written, and why it cannot; those after it are removed."""
         if len(came) == 1:
             outcomes = [self._outcome(came[0])]
@@ -93,5 +93,5 @@ class ResultWriter:
         try:
             return self._files.keep(chunk.job, chunk.start, chunk.stop, piece.content)
         except OSError as error:
-            what = f"rows {chunk.start} to {chunk.stop - 1}" if chunk.rows else "selected rows"
-            raise CannotWrite(f"{what} cannot be written: {error.strerror}") from error
+            words = f"rows {chunk.start} to {chunk.stop - 1}" if chunk.rows else "selected rows"
+            raise CannotWrite(f"{words} cannot be written: {error.strerror}") from error

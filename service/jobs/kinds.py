@@ -107,10 +107,10 @@ def table_bytes(table: "pa.Table") -> bytes:
     # numbers byte by byte would be smaller by 1 %, and take a fifth longer; texts are few
     texts = [field.name for field in schema if field.type == pa.string()]
     # smallest and largest values lead to designs by what varies in an order, which results do not
-    ordered = [field.name for field in schema if field.name == "index" or field.name.startswith("/")]
+    statistics = [field.name for field in schema if field.name == "index" or field.name.startswith("/")]
     plain = {field.name for field in schema if field.type == pa.float64() and not _repeats(table[field.name])}
     compression = {name: "none" if name in plain else "zstd" for name in schema.names}
-    how = {"compression": compression, "use_dictionary": texts, "write_statistics": ordered, "store_schema": False}
+    how = {"compression": compression, "use_dictionary": texts, "write_statistics": statistics, "store_schema": False}
     # a group of rows is what must be held to read some of them
     rows = max(1, _GROUP_CELLS // max(1, len(schema)))
     pq.write_table(table, out, row_group_size=rows, **how)

@@ -48,13 +48,15 @@ class Leases:
         self._limits = limits or Limits()
         self._clock = clock
 
-    def claim(self, owner: str, lease_s: float, attempted: bool = False, others: Collection[str] = ()) -> Chunk | None:
-        """Lease one chunk, see :meth:`claim_some`."""
-        batch = self.claim_some(owner, lease_s, 1, attempted, others)
+    def claim(
+        self, owner: str, lease_s: float, attempted: bool = False, exclusions: Collection[str] = ()
+    ) -> Chunk | None:
+        """Lease one chunk, see :meth:`claim_chunks`."""
+        batch = self.claim_chunks(owner, lease_s, 1, attempted, exclusions)
         return batch[0] if batch else None
 
-    def claim_some(
-        self, owner: str, lease_s: float, most: int, attempted: bool = False, others: Collection[str] = ()
+    def claim_chunks(
+        self, owner: str, lease_s: float, most: int, attempted: bool = False, exclusions: Collection[str] = ()
     ) -> list[Chunk]:
         """Lease chunks of one job: of the owner with the fewest chunks in work, and of their job with the fewest, so
         that nobody waits for somebody else's large or many jobs.
@@ -63,13 +65,13 @@ class Leases:
         ----------
         most : there may be fewer; none if there is nothing to do.
         attempted : whether to lease chunks that went wrong before, or fresh ones.
-        others : jobs that are left to other services.
+        exclusions : jobs that are left to other services.
         """
         now = self._clock()
         # a lease that ends later than any can was made by a clock that has jumped since
         times = {"now": now, "latest": now + 2 * lease_s}
         with self._database.read() as connection:
-            candidates: list[str] = list(connection.scalars(_waiting(attempted), {"others": [*others], **times}))
+            candidates: list[str] = list(connection.scalars(_waiting(attempted), {"others": [*exclusions], **times}))
         for job in candidates:
             with self._database.write() as connection:
                 entry = rows.find(connection, job, lock=True)
@@ -77,22 +79,22 @@ class Leases:
                     continue
                 spans = _free(connection, attempted, {"job": job, "most": most, **times})
                 if not spans and not attempted:
-                    spans = _made(connection, entry)[:most]
+                    spans = _next_spans(connection, entry)[:most]
                 if spans:
                     starts = [start for start, _, _ in spans]
-                    these = and_(chunks.c.job == job, chunks.c.start.in_(starts))
+                    condition = and_(chunks.c.job == job, chunks.c.start.in_(starts))
                     lease = {"state": "leased", "lease_owner": owner, "lease_until": now + lease_s}
-                    connection.execute(update(chunks).where(these).values(lease))
+                    connection.execute(update(chunks).where(condition).values(lease))
                     if entry.state == "queued":
                         rows.change(connection, job, state="running", started=entry.started or now)
                     request = bytes(connection.scalar(select(jobs.c.request).where(jobs.c.id == job)) or b"")
                     return [Chunk(job, entry.kind, request, *span) for span in spans]
         return []
 
-    def renew(self, owner: str, held: Sequence[Chunk], lease_s: float) -> None:
+    def renew(self, owner: str, leases: Sequence[Chunk], lease_s: float) -> None:
         """Keep the leases of some chunks of an owner."""
-        these = tuple_(chunks.c.job, chunks.c.start).in_([(chunk.job, chunk.start) for chunk in held])
-        mine = and_(these, chunks.c.lease_owner == owner, chunks.c.state == "leased")
+        condition = tuple_(chunks.c.job, chunks.c.start).in_([(chunk.job, chunk.start) for chunk in leases])
+        mine = and_(condition, chunks.c.lease_owner == owner, chunks.c.state == "leased")
         with self._database.write() as connection:
             connection.execute(update(chunks).where(mine).values(lease_until=self._clock() + lease_s))
 
@@ -125,8 +127,8 @@ class Leases:
             if entry is None or not entry.active:
                 return [False] * len(computed)
             now = self._clock()
-            counted = [_mark_done(connection, piece, now) for piece in computed]
-            new = [piece for piece, counts in zip(computed, counted, strict=True) if counts]
+            successes = [_finish(connection, piece, now) for piece in computed]
+            new = [piece for piece, counts in zip(computed, successes, strict=True) if counts]
             if new:
                 counts = {
                     "done": jobs.c.done + sum(piece.chunk.rows for piece in new),
@@ -136,7 +138,7 @@ class Leases:
                 }
                 rows.change(connection, job, **counts)
                 self._settle(connection, entry)
-            return counted
+            return successes
 
     def _settle(self, connection: Connection, job: Job) -> None:
         rows.settle(connection, job.id, self._clock(), self._limits.keep_s)
@@ -162,10 +164,10 @@ class Leases:
             job = rows.find(connection, chunk.job, lock=True)
             if job is None or not job.active or covered <= job.selected:
                 return file
-            before = connection.execute(select(chunks.c.digest, chunks.c.bytes).where(_this(chunk))).one()
+            before = connection.execute(select(chunks.c.digest, chunks.c.bytes).where(_own(chunk))).one()
             about = {"digest": file.digest, "bytes": on_disk(file.bytes), "attempts": 0, "lease_owner": None}
             state = "done" if covered == job.total else "waiting"
-            connection.execute(update(chunks).where(_this(chunk)).values(state=state, **about))
+            connection.execute(update(chunks).where(_own(chunk)).values(state=state, **about))
             size_now = jobs.c.bytes + on_disk(file.bytes) - before.bytes
             rows.change(connection, chunk.job, selected=covered, kept=remaining, bytes=size_now)
             self._settle(connection, job)
@@ -177,7 +179,7 @@ class Leases:
             job = rows.find(connection, chunk.job, lock=True)
             if job is not None and job.active:
                 gone = {"state": "done", "digest": None, "lease_owner": None}
-                connection.execute(update(chunks).where(_this(chunk)).values(gone))
+                connection.execute(update(chunks).where(_own(chunk)).values(gone))
                 rows.change(connection, chunk.job, selected=job.total, kept=0, error=reason)
                 self._settle(connection, job)
 
@@ -185,7 +187,7 @@ class Leases:
         """Select rows later: when those that are computed anew are there, which they may be by now."""
         with self._database.write() as connection:
             job = rows.find(connection, chunk.job, lock=True)
-            mine = and_(_this(chunk), chunks.c.state == "leased")
+            mine = and_(_own(chunk), chunks.c.state == "leased")
             connection.execute(update(chunks).where(mine).values(state="waiting", lease_owner=None))
             if job is not None:
                 self._settle(connection, job)
@@ -194,7 +196,7 @@ class Leases:
         """A chunk went wrong ``attempts`` times by now and shall be tried again."""
         with self._database.write() as connection:
             values = {"state": "pending", "attempts": attempts, "lease_owner": None}
-            connection.execute(update(chunks).where(_this(chunk), chunks.c.state == "leased").values(values))
+            connection.execute(update(chunks).where(_own(chunk), chunks.c.state == "leased").values(values))
 
     def halve(self, chunk: Chunk) -> int:
         """Replace a chunk that keeps going wrong by its halves, so that the rows at fault end up alone.
@@ -207,8 +209,8 @@ class Leases:
         with self._database.write() as connection:
             rows.get(connection, chunk.job, lock=True)
             values = {"state": "pending", "lease_owner": None, "attempts": 1}
-            this = and_(_this(chunk), chunks.c.stop == chunk.stop, chunks.c.state != "done")
-            if connection.execute(update(chunks).where(this).values(stop=middle, **values)).rowcount:
+            condition = and_(_own(chunk), chunks.c.stop == chunk.stop, chunks.c.state != "done")
+            if connection.execute(update(chunks).where(condition).values(stop=middle, **values)).rowcount:
                 half = {"job": chunk.job, "start": middle, "stop": chunk.stop, **values}
                 connection.execute(insert(chunks).values(half))
                 rows.change(connection, chunk.job, faults=jobs.c.faults + 1)
@@ -227,15 +229,15 @@ class Leases:
         with self._database.write() as connection:
             entry = rows.find(connection, job, lock=True)
             selection = record.rows == 0
-            this = and_(chunks.c.job == job, chunks.c.start == record.start, chunks.c.stop == record.stop)
-            condition = and_(this, chunks.c.digest == record.digest, chunks.c.state.in_(["done", "waiting"]))
+            own = and_(chunks.c.job == job, chunks.c.start == record.start, chunks.c.stop == record.stop)
+            condition = and_(own, chunks.c.digest == record.digest, chunks.c.state.in_(["done", "waiting"]))
             row = connection.execute(select(chunks.c.failed, chunks.c.invalid, chunks.c.bytes).where(condition)).first()
             if entry is None or row is None:
                 return False
             sizes = {"bytes": 0, "failed": 0, "invalid": 0}
             blank = {**sizes, "digest": None, "attempts": 0, "finished": None, "lease_owner": None}
             state = "waiting" if selection else "pending"
-            connection.execute(update(chunks).where(this).values(state=state, **blank))
+            connection.execute(update(chunks).where(own).values(state=state, **blank))
             counts = {
                 "done": entry.done - record.rows,
                 "failed": entry.failed - row.failed,
@@ -254,13 +256,13 @@ class Leases:
         with self._database.write() as connection:
             # the job before its chunks, as everywhere: the other way round two transactions wait for each other
             rows.find(connection, job, lock=True)
-            this = and_(chunks.c.job == job, chunks.c.start == record.start, chunks.c.stop == record.stop)
-            old = and_(this, chunks.c.digest.is_(None), chunks.c.state == "done")
+            own = and_(chunks.c.job == job, chunks.c.start == record.start, chunks.c.stop == record.stop)
+            old = and_(own, chunks.c.digest.is_(None), chunks.c.state == "done")
             if connection.execute(update(chunks).where(old).values(digest=digest, bytes=on_disk(size))).rowcount:
                 connection.execute(update(jobs).where(jobs.c.id == job).values(bytes=jobs.c.bytes + on_disk(size)))
 
 
-def _this(chunk: Chunk) -> ColumnElement[bool]:
+def _own(chunk: Chunk) -> ColumnElement[bool]:
     return and_(chunks.c.job == chunk.job, chunks.c.start == chunk.start)
 
 
@@ -276,16 +278,16 @@ def _available(attempted: bool) -> tuple[tuple[ColumnElement[bool], ColumnElemen
 @cache
 def _waiting(attempted: bool) -> Select[Any]:
     """The jobs that have a chunk to give out, those first that shall have it."""
-    free, tried = _available(attempted)
-    held = (
+    free, attempts = _available(attempted)
+    leased = (
         select(chunks.c.job, func.coalesce(jobs.c.owner, "").label("owner"))
         .join(jobs, jobs.c.id == chunks.c.job)
         .where(chunks.c.state == "leased", chunks.c.lease_until >= bindparam("now"))
         .subquery()
     )
-    of_job = select(held.c.job, func.count().label("busy")).group_by(held.c.job).subquery()
-    of_owner = select(held.c.owner, func.count().label("busy")).group_by(held.c.owner).subquery()
-    there = exists().where(chunks.c.job == jobs.c.id, or_(*free), tried)
+    of_job = select(leased.c.job, func.count().label("busy")).group_by(leased.c.job).subquery()
+    of_owner = select(leased.c.owner, func.count().label("busy")).group_by(leased.c.owner).subquery()
+    there = exists().where(chunks.c.job == jobs.c.id, or_(*free), attempts)
     return (
         select(jobs.c.id)
         .outerjoin(of_job, of_job.c.job == jobs.c.id)
@@ -300,39 +302,39 @@ def _waiting(attempted: bool) -> Select[Any]:
 @cache
 def _free_of_job(attempted: bool) -> tuple[Select[Any], ...]:
     """Start, stop and attempts of chunks of a job that may be given out, at most so many."""
-    free, tried = _available(attempted)
-    wanted = select(chunks.c.start, chunks.c.stop, chunks.c.attempts).where(chunks.c.job == bindparam("job"), tried)
-    return tuple(wanted.where(condition).order_by(chunks.c.start).limit(bindparam("most")) for condition in free)
+    free, attempts = _available(attempted)
+    query = select(chunks.c.start, chunks.c.stop, chunks.c.attempts).where(chunks.c.job == bindparam("job"), attempts)
+    return tuple(query.where(condition).order_by(chunks.c.start).limit(bindparam("most")) for condition in free)
 
 
 def _free(connection: Connection, attempted: bool, about: Mapping[str, Any]) -> list[tuple[int, int, int]]:
-    for wanted in _free_of_job(attempted):
-        matches = connection.execute(wanted, about).all()
+    for query in _free_of_job(attempted):
+        matches = connection.execute(query, about).all()
         if matches:
             return [(row.start, row.stop, row.attempts) for row in matches]
     return []
 
 
-def _made(connection: Connection, job: Job) -> list[tuple[int, int, int]]:
+def _next_spans(connection: Connection, job: Job) -> list[tuple[int, int, int]]:
     """Make the next chunks of a job."""
     stop = min(job.planned + _PLANNED * job.chunk_rows, job.total)
     starts = range(job.planned, stop, job.chunk_rows)
-    made = [(start, min(start + job.chunk_rows, job.total), 0) for start in starts]
-    if made:
-        new = [{"job": job.id, "start": start, "stop": end} for start, end, _ in made]
+    spans = [(start, min(start + job.chunk_rows, job.total), 0) for start in starts]
+    if spans:
+        new = [{"job": job.id, "start": start, "stop": end} for start, end, _ in spans]
         connection.execute(insert(chunks), new)
         connection.execute(update(jobs).where(jobs.c.id == job.id).values(planned=stop))
-    return made
+    return spans
 
 
-def _mark_done(connection: Connection, computed: Computed, now: float) -> bool:
+def _finish(connection: Connection, computed: Computed, now: float) -> bool:
     """Whether a chunk was not done before."""
-    this = and_(_this(computed.chunk), chunks.c.stop == computed.chunk.stop, chunks.c.state != "done")
+    condition = and_(_own(computed.chunk), chunks.c.stop == computed.chunk.stop, chunks.c.state != "done")
     about = {
         "failed": computed.failed,
         "invalid": computed.invalid,
         "digest": computed.digest,
         "bytes": on_disk(computed.bytes),
     }
-    done = update(chunks).where(this).values(state="done", finished=now, lease_owner=None, **about)
-    return connection.execute(done).rowcount > 0
+    statement = update(chunks).where(condition).values(state="done", finished=now, lease_owner=None, **about)
+    return connection.execute(statement).rowcount > 0

@@ -129,8 +129,8 @@ class OwnerJobs:
 
     def later(self, kind: str, request: bytes, key: str | None, sent: bytes) -> tuple[Job, bool]:
         """A job that computes one answer; otherwise as :meth:`sweep`."""
-        its = fingerprint(kind, sent)
-        return self._submit(Order(kind, request, its, expected_bytes=len(request), owner=self._owner, key=key))
+        digest = fingerprint(kind, sent)
+        return self._submit(Order(kind, request, digest, expected_bytes=len(request), owner=self._owner, key=key))
 
     def _submit(self, order: Order) -> tuple[Job, bool]:
         result = self._parts.store.submit(order)
@@ -150,14 +150,14 @@ class OwnerJobs:
             raise UnknownJob(job)
         return self._judged(entry)
 
-    def those(self, ids: Collection[str]) -> list[Job]:
+    def by_ids(self, ids: Collection[str]) -> list[Job]:
         """Those of some jobs that there are, of whoever they may be.
 
         Raises
         ------
         DatabaseUnavailable
         """
-        return [self._judged(job) for job in self._parts.store.those(ids)]
+        return [self._judged(job) for job in self._parts.store.by_ids(ids)]
 
     def page(self, limit: int, before: str | None) -> list[Job]:
         """Sweeps, newest first, after the one of id ``before``.
@@ -278,10 +278,10 @@ class OwnerJobs:
         if not pieces:
             # it may have been removed meanwhile
             self._parts.store.get(job.id)
-        wanted = results.within(pieces, first, last)
-        self._require(job, wanted)
+        selection = results.within(pieces, first, last)
+        self._require(job, selection)
         complete = job.state == "done" and sum(piece.rows for piece in pieces) == job.total
-        return Rows(results.batches(wanted, self._opener(job), schema, first, last), job.total, complete)
+        return Rows(results.batches(selection, self._opener(job), schema, first, last), job.total, complete)
 
     def selection(self, job: Job, schema: "pa.Schema", first: int = 0, last: int | None = None) -> Rows:
         """The rows that ``top`` or ``pareto`` of the request keep, of those that were there when they were selected.
@@ -336,7 +336,7 @@ class OwnerJobs:
 
     def _adopted(self, job: Job, record: Record) -> Record:
         try:
-            named = self._parts.files.named(job.id, record)
+            adopted = self._parts.files.renamed_file(job.id, record)
         except OSError as error:
             raise FilesUnavailable(f"a file of job {job.id} cannot be given its name: {error.strerror}") from error
         except Damaged:
@@ -346,9 +346,9 @@ class OwnerJobs:
                 if (piece.start, piece.stop) == rows and piece.digest is not None:
                     return piece
             raise
-        self._parts.leases.adopt(job.id, record, str(named.digest), named.bytes)
+        self._parts.leases.adopt(job.id, record, str(adopted.digest), adopted.bytes)
         self._parts.files.drop(job.id, record)
-        return named
+        return adopted
 
 
 def _unselected(job: Job) -> str | None:
@@ -359,8 +359,8 @@ def _unselected(job: Job) -> str | None:
 
 
 def _message(record: Record, reason: str) -> str:
-    what = f"The file of the rows {record.start} to {record.stop - 1}" if record.rows else "The file of the selection"
-    return f"{what} is {reason}; it is made again."
+    words = f"The file of the rows {record.start} to {record.stop - 1}" if record.rows else "The file of the selection"
+    return f"{words} is {reason}; it is made again."
 
 
 def _moment(seconds: float) -> str:

@@ -43,10 +43,10 @@ def rows_per_second(finished: Sequence[tuple[float, int]], started: float | None
     finished : moments when chunks were finished [s], the latest first, and the rows of each.
     started : when the earliest of them was begun; None if that is unknown.
     """
-    ordered = [(started, 0)] if started is not None else []
-    ordered += reversed(finished)
+    moments = [(started, 0)] if started is not None else []
+    moments += reversed(finished)
     # a clock that was set back tells nothing
-    steps = [(max(0.0, later - before), rows) for (before, _), (later, rows) in pairwise(ordered)]
+    steps = [(max(0.0, later - before), rows) for (before, _), (later, rows) in pairwise(moments)]
     if not steps:
         return None
     gaps = sorted(gap for gap, _ in steps)

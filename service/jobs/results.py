@@ -20,7 +20,7 @@ class UnknownColumn(ValueError):
     """The result has no column of this name."""
 
 
-def chosen(schema: "pa.Schema", columns: Sequence[str]) -> "pa.Schema":
+def schema_of(schema: "pa.Schema", columns: Sequence[str]) -> "pa.Schema":
     """The schema of some columns, in the order of the result; all of them if none is asked for.
 
     Each of ``columns`` is a name, or several with commas between them.

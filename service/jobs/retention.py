@@ -26,7 +26,7 @@ class Retention:
         self._database = database
         self._clock = clock
         #: lived seconds as last seen, and when that was
-        self._seen: tuple[float, float] | None = None
+        self._last: tuple[float, float] | None = None
 
     def mark_removed(self, job: str) -> None:
         """Make an ended job unknown; its idempotency key is free again.
@@ -43,11 +43,11 @@ class Retention:
         """Mark the jobs whose time is over."""
         with self._database.write() as connection:
             now, lived = self._clock(), connection.scalar(select(schema.c.lived)) or 0.0
-            if self._seen is not None:
-                before, then = self._seen
+            if self._last is not None:
+                before, then = self._last
                 lived = max(lived, before + max(0.0, now - then))
                 connection.execute(update(schema).values(lived=lived))
-            self._seen = lived, now
+            self._last = lived, now
             over = and_(jobs.c.expires < lived, jobs.c.state.not_in([*ACTIVE, REMOVED]))
             connection.execute(update(jobs).where(over).values(state=REMOVED, idempotency_key=None))
 
@@ -73,8 +73,8 @@ class Retention:
         """The versions of the jobs that have ended, by id."""
         with self._database.read() as connection:
             over = jobs.c.state.not_in([*ACTIVE, REMOVED])
-            wanted = select(jobs.c.id, jobs.c.version).where(over).order_by(jobs.c.id)
-            return {row.id: row.version for row in connection.execute(wanted)}
+            query = select(jobs.c.id, jobs.c.version).where(over).order_by(jobs.c.id)
+            return {row.id: row.version for row in connection.execute(query)}
 
     def identity(self) -> str:
         """Of the database: the same for all services that share it."""

@@ -32,10 +32,10 @@ def exceeds(connection: Connection, owner: str | None, quota: int) -> bool:
     most = int(connection.scalar(select(func.sum(jobs.c.bytes)).where(of(owner))) or 0)
     if connection.dialect.name == "sqlite":
         most += _database(connection)
-    return most > quota and taken(connection, owner) > quota
+    return most > quota and usage(connection, owner) > quota
 
 
-def taken(connection: Connection, owner: str | None, planned: bool = False) -> int:
+def usage(connection: Connection, owner: str | None, planned: bool = False) -> int:
     """Bytes on disk of the jobs of an owner; with those that the active ones are expected to come to if planned.
 
     SQLite keeps its file beside those of the jobs, with all that it writes there. Each owner has a part of it, by what
@@ -49,10 +49,10 @@ def taken(connection: Connection, owner: str | None, planned: bool = False) -> i
         return int(connection.scalar(select(func.sum(size)).where(of(owner))) or 0)
     content = _TEXT + _ROW * (1 + jobs.c.planned / jobs.c.chunk_rows)
     of_owner = select(func.sum(size), func.sum(_TEXT), func.sum(content)).where(of(owner))
-    everything, text, its_content = (int(value or 0) for value in connection.execute(of_owner).one())
+    everything, text, content_of_owner = (int(value or 0) for value in connection.execute(of_owner).one())
     whole = int(connection.scalar(select(func.sum(content))) or 0)
     # the text is in the database, which is counted as it is
-    return everything - text + (-(-_database(connection) * its_content // whole) if whole else 0)
+    return everything - text + (-(-_database(connection) * content_of_owner // whole) if whole else 0)
 
 
 def _database(connection: Connection) -> int:

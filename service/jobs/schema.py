@@ -80,10 +80,10 @@ def _add_columns(connection: Connection) -> None:
         there = _columns(connection, table.name)
         for column in table.columns:
             if column.name not in there:
-                made = CreateColumn(column).compile(dialect=connection.dialect)
+                definition = CreateColumn(column).compile(dialect=connection.dialect)
                 # rows that are there need a value
                 default = "" if column.nullable else f" DEFAULT {'false' if column.name == 'selects' else 0}"
-                connection.execute(text(f"ALTER TABLE {table.name} ADD COLUMN {made}{default}"))
+                connection.execute(text(f"ALTER TABLE {table.name} ADD COLUMN {definition}{default}"))
 
 
 def _from_1(connection: Connection) -> None:
@@ -106,12 +106,12 @@ def _selections_of_1(connection: Connection) -> None:
     for job in connection.scalars(sweeps).all():
         row = connection.execute(select(jobs.c.request, jobs.c.state, jobs.c.total).where(jobs.c.id == job)).one()
         request = json.loads(row.request)
-        this = update(jobs).where(jobs.c.id == bindparam("job"))
+        statement = update(jobs).where(jobs.c.id == bindparam("job"))
         selects = request.get("top") is not None or request.get("pareto") is not None
-        connection.execute(this.values(seed=request.get("seed", 0), selects=selects), {"job": job})
+        connection.execute(statement.values(seed=request.get("seed", 0), selects=selects), {"job": job})
         if selects:
             ready = row.state == "done"
             chunk = {"job": job, "start": row.total, "stop": row.total, "state": "pending" if ready else "waiting"}
             connection.execute(insert(chunks).values(chunk))
             if ready:
-                connection.execute(this.values(state="running"), {"job": job})
+                connection.execute(statement.values(state="running"), {"job": job})

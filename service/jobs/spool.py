@@ -89,27 +89,27 @@ def _remove_if_left(folder: Path) -> bool:
 class _Unpacked(Future[ChunkResult]):
     """The result of a message."""
 
-    def __init__(self, packed: "Future[bytes | Path]") -> None:
+    def __init__(self, source: "Future[bytes | Path]") -> None:
         super().__init__()
-        self._packed: Future[bytes | Path] | None = packed
-        packed.add_done_callback(self._take)
+        self._source: Future[bytes | Path] | None = source
+        source.add_done_callback(self._take)
 
     def cancel(self) -> bool:
-        packed = self._packed
-        if packed is not None:
-            packed.cancel()
+        source = self._source
+        if source is not None:
+            source.cancel()
         return super().cancel()
 
-    def _take(self, packed: "Future[bytes | Path]") -> None:
+    def _take(self, source: "Future[bytes | Path]") -> None:
         # each holds the other, and with it megabytes until the next collection of garbage
-        self._packed = None
+        self._source = None
         # the future may have been cancelled while the message was on its way
         with suppress(InvalidStateError):
-            if packed.cancelled():
+            if source.cancelled():
                 super().cancel()
                 return
             try:
-                self.set_result(pickle.loads(_get(packed.result())))
+                self.set_result(pickle.loads(_get(source.result())))
             except InvalidStateError:
                 raise
             except BaseException as error:

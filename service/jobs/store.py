@@ -68,23 +68,23 @@ class Store:
                 entry = _by_key(connection, order)
             if entry is None:
                 raise
-        job, its_fingerprint, its_request = entry
-        if job.kind != order.kind or not same(order, its_fingerprint, its_request):
+        job, digest, content = entry
+        if job.kind != order.kind or not same(order, digest, content):
             raise KeyReused("This Idempotency-Key came with another request before; take a new key.")
         return job, False
 
     def _require_room(self, connection: Connection, order: Order) -> None:
         active = select(func.count()).select_from(jobs).where(jobs.c.state.in_(ACTIVE))
-        for wanted, most in (
+        for query, most in (
             (active, self._limits.active),
             (active.where(room.of(order.owner)), self._limits.active_per_owner),
         ):
-            count = connection.scalar(wanted) or 0
+            count = connection.scalar(query) or 0
             if count >= most:
                 raise TooManyJobs(f"{count} jobs are waiting or running; try again later.")
         quota = self._limits.quota_bytes
         if quota is not None:
-            used = room.taken(connection, order.owner, planned=True)
+            used = room.usage(connection, order.owner, planned=True)
             if used + order.expected_bytes > quota:
                 raise QuotaExceeded(
                     f"The job is expected to take {order.expected_bytes / 1e6:.1f} MB on disk; of {quota / 1e6:.1f} MB "
@@ -126,11 +126,11 @@ class Store:
         with self._database.read() as connection:
             return rows.get(connection, job)
 
-    def those(self, ids: Collection[str]) -> list[Job]:
+    def by_ids(self, ids: Collection[str]) -> list[Job]:
         """Those of some jobs that there are."""
         with self._database.read() as connection:
-            wanted = select(*JOB).where(jobs.c.id.in_(ids), jobs.c.state != REMOVED)
-            return [job_from(row) for row in connection.execute(wanted).mappings()]
+            query = select(*JOB).where(jobs.c.id.in_(ids), jobs.c.state != REMOVED)
+            return [job_from(row) for row in connection.execute(query).mappings()]
 
     def request(self, job: str) -> bytes:
         """What was asked for.
@@ -169,19 +169,22 @@ class Store:
             if before is not None:
                 last = rows.get(connection, before)
                 values |= {"created": last.created, "id": last.id}
-            listed = connection.execute(_page(owner is not None, before is not None), values)
-            return [job_from(row) for row in listed.mappings()]
+            result = connection.execute(_page(owner is not None, before is not None), values)
+            return [job_from(row) for row in result.mappings()]
 
     def counts(self) -> dict[str, tuple[int, int, int, int]]:
         """By state: number of jobs, their finished rows, and those of them that failed or are invalid."""
-        wanted = (
+        query = (
             select(jobs.c.state, func.count(), func.sum(jobs.c.done), func.sum(jobs.c.failed), func.sum(jobs.c.invalid))
             .where(jobs.c.state != REMOVED)
             .group_by(jobs.c.state)
         )
         with self._database.read() as connection:
-            result = connection.execute(wanted)
-            return {state: (count, int(done), int(failed), int(wrong)) for state, count, done, failed, wrong in result}
+            result = connection.execute(query)
+            return {
+                state: (count, int(finished), int(failed), int(wrong))
+                for state, count, finished, failed, wrong in result
+            }
 
     def pieces(self, job: str) -> list[Record]:
         """The files of the rows that are there, in order."""
@@ -193,17 +196,17 @@ class Store:
         return records[0] if records else None
 
     def _records(self, job: str, *conditions: ColumnElement[bool]) -> list[Record]:
-        wanted = select(chunks.c.start, chunks.c.stop, chunks.c.digest, chunks.c.bytes)
+        query = select(chunks.c.start, chunks.c.stop, chunks.c.digest, chunks.c.bytes)
         with self._database.read() as connection:
-            result = connection.execute(wanted.where(chunks.c.job == job, *conditions).order_by(chunks.c.start))
+            result = connection.execute(query.where(chunks.c.job == job, *conditions).order_by(chunks.c.start))
             return [Record(row.start, row.stop, row.digest, row.bytes) for row in result]
 
     def last_finished(self, job: str, most: int) -> list[tuple[float, int]]:
         """When the last chunks were finished [s since 1970], and how many rows each of them has; the latest first."""
-        wanted = select(chunks.c.finished, chunks.c.stop - chunks.c.start).order_by(chunks.c.finished.desc())
-        those = wanted.where(chunks.c.job == job, chunks.c.finished.is_not(None)).limit(most)
+        query = select(chunks.c.finished, chunks.c.stop - chunks.c.start).order_by(chunks.c.finished.desc())
+        latest = query.where(chunks.c.job == job, chunks.c.finished.is_not(None)).limit(most)
         with self._database.read() as connection:
-            return [(float(moment), int(rows)) for moment, rows in connection.execute(those)]
+            return [(float(moment), int(rows)) for moment, rows in connection.execute(latest)]
 
     def cancel(self, job: str) -> Job:
         """Give out no more chunks; what is finished stays. An ended job stays as it is.
@@ -252,19 +255,19 @@ class Store:
 @cache
 def _page(owned: bool, later: bool) -> Select[tuple[object, ...]]:
     """The statement of a page, of one owner and after a job if so; put together once, as it is asked at every look."""
-    wanted = select(*JOB).where(jobs.c.state != REMOVED, jobs.c.kind.in_(bindparam("kinds", expanding=True)))
+    query = select(*JOB).where(jobs.c.state != REMOVED, jobs.c.kind.in_(bindparam("kinds", expanding=True)))
     if owned:
-        wanted = wanted.where(jobs.c.owner == bindparam("owner"))
+        query = query.where(jobs.c.owner == bindparam("owner"))
     if later:
         created, job = bindparam("created", type_=jobs.c.created.type), bindparam("id", type_=jobs.c.id.type)
-        wanted = wanted.where(or_(jobs.c.created < created, and_(jobs.c.created == created, jobs.c.id < job)))
-    return wanted.order_by(jobs.c.created.desc(), jobs.c.id.desc()).limit(bindparam("limit"))
+        query = query.where(or_(jobs.c.created < created, and_(jobs.c.created == created, jobs.c.id < job)))
+    return query.order_by(jobs.c.created.desc(), jobs.c.id.desc()).limit(bindparam("limit"))
 
 
 def _by_key(connection: Connection, order: Order) -> tuple[Job, str, bytes] | None:
     """The job that has the key of an order, its fingerprint and its request."""
     if order.key is None:
         return None
-    its = and_(func.coalesce(jobs.c.owner, "") == (order.owner or ""), jobs.c.idempotency_key == order.key)
-    row = connection.execute(select(*JOB, jobs.c.digest, jobs.c.request).where(its)).mappings().first()
+    condition = and_(func.coalesce(jobs.c.owner, "") == (order.owner or ""), jobs.c.idempotency_key == order.key)
+    row = connection.execute(select(*JOB, jobs.c.digest, jobs.c.request).where(condition)).mappings().first()
     return None if row is None else (job_from(row), row["digest"], bytes(row["request"]))

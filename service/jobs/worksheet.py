@@ -68,10 +68,10 @@ def require_fits(rows: int, columns: int) -> None:
     ------
     TooLargeForWorksheet
     """
-    for count, most, what in ((rows, MOST_ROWS, "rows"), (columns, MOST_COLUMNS, "columns")):
+    for count, most, kind in ((rows, MOST_ROWS, "rows"), (columns, MOST_COLUMNS, "columns")):
         if count > most:
             raise TooLargeForWorksheet(
-                f"a worksheet holds {most} {what}, and there are {count}; take fewer, or csv or parquet"
+                f"a worksheet holds {most} {kind}, and there are {count}; take fewer, or csv or parquet"
             )
     if rows * columns > MOST_CELLS:
         raise TooLargeForWorksheet(

@@ -73,8 +73,8 @@ def asset(name: str) -> Asset:
     # looked up in the listing: a name never becomes a path by itself
     if name not in names():
         raise UnknownAsset(name)
-    made = _OWN.get(name)
-    content = made().encode() if made else (files("plotly") / "package_data" / PLOTS).read_bytes()
+    factory = _OWN.get(name)
+    content = factory().encode() if factory else (files("plotly") / "package_data" / PLOTS).read_bytes()
     return Asset(MEDIA_TYPES[Path(name).suffix], content)
 
 

@@ -38,31 +38,31 @@ def bundle(folder: Path, entry: str) -> str:
     CircularImport
         if there is a module that needs itself.
     """
-    written: dict[str, str] = {}
-    _write(folder, entry, written, ())
-    return "".join(written.values())
+    modules: dict[str, str] = {}
+    _write(folder, entry, modules, ())
+    return "".join(modules.values())
 
 
-def _write(folder: Path, name: str, written: dict[str, str], around: tuple[str, ...]) -> None:
+def _write(folder: Path, name: str, modules: dict[str, str], around: tuple[str, ...]) -> None:
     if name in around:
         raise CircularImport(" needs ".join((*around[around.index(name) :], name)))
-    if name in written:
+    if name in modules:
         return
     text = (folder / name).read_text(encoding="utf-8")
     for _, needed in _IMPORT.findall(text):
-        _write(folder, _beside(name, needed), written, (*around, name))
-    numbers = {module_name: number for number, module_name in enumerate(written)}
+        _write(folder, _beside(name, needed), modules, (*around, name))
+    numbers = {module_name: number for number, module_name in enumerate(modules)}
     exported = _EXPORT.findall(text)
     inside = _EXPORT.sub("", _COMMENT.sub("", text))
     inside = _IMPORT.sub(
         lambda match: f"const {{ {match[1].replace(' as ', ': ')} }} = module{numbers[_beside(name, match[2])]};",
         inside,
     )
-    other = _OTHER.search(_NOTE.sub("", inside))
-    if other:
-        raise UnknownStatement(f"{name}: {other[0]}")
-    written[name] = (
-        f"// {name}\nconst module{len(written)} = (() => {{\n{inside}return {{ {', '.join(exported)} }};\n}})();\n"
+    rest = _OTHER.search(_NOTE.sub("", inside))
+    if rest:
+        raise UnknownStatement(f"{name}: {rest[0]}")
+    modules[name] = (
+        f"// {name}\nconst module{len(modules)} = (() => {{\n{inside}return {{ {', '.join(exported)} }};\n}})();\n"
     )
 
 

@@ -23,20 +23,20 @@ def draw(title: str, answer: AccuracyAnswer) -> str:
     """The picture as SVG; errors below the resolution are drawn there."""
     resolution = answer.reference.resolution if answer.reference else 0.0
     ladder: tuple[Row, ...] = answer.choices_ladder or answer.ladder
-    shown = [(row, at) for row in ladder if (at := _place(row, resolution)) is not None]
+    points_of_rows = [(row, at) for row in ladder if (at := _place(row, resolution)) is not None]
     drawing = Drawing(_WIDTH, _HEIGHT, f"{title}: true relative error against time of one solve")
     drawing.text((_LEFT, 18), shortened(title, 80), size=13)
-    errors = [error for _, (_, error) in shown] + ([resolution] if resolution > 0.0 else [])
-    x = _Decades([time for _, (time, _) in shown], _LEFT, _RIGHT)
+    errors = [error for _, (_, error) in points_of_rows] + ([resolution] if resolution > 0.0 else [])
+    x = _Decades([time for _, (time, _) in points_of_rows], _LEFT, _RIGHT)
     y = _Decades(errors, _BOTTOM, _TOP)
     _axes(drawing, x, y)
-    best = sorted(at for row, at in shown if row.on_frontier)
+    best = sorted(at for row, at in points_of_rows if row.on_frontier)
     if best:
         drawing.line([(x(time), y(error)) for time, error in _steps(best)], FAINT, 6.0)
     if resolution > 0.0:
         drawing.line([(_LEFT, y(resolution)), (_RIGHT, y(resolution))], MUTED, 1.0, "1 3")
     row_of_legend = _TOP + 6
-    for number, (method, rows) in enumerate(groupby(shown, key=lambda pair: pair[0].method)):
+    for number, (method, rows) in enumerate(groupby(points_of_rows, key=lambda pair: pair[0].method)):
         stroke, dash = SERIES[number % len(SERIES)], DASHES[number % len(DASHES)]
         points = []
         for row, (time, error) in rows:
@@ -44,13 +44,13 @@ def draw(title: str, answer: AccuracyAnswer) -> str:
             drawing.circle(points[-1], 3.0, stroke, stroke)
             drawing.text((points[-1][0] + 5, points[-1][1] - 4), _setting(row), size=9, fill=stroke, halo=True)
         drawing.line(points, stroke, 1.0, dash)
-        _named(drawing, row_of_legend, method_name(method), stroke, 1.5, dash)
+        _legend_line(drawing, row_of_legend, method_name(method), stroke, 1.5, dash)
         row_of_legend += _LINE
     if best:
-        _named(drawing, row_of_legend, "frontier", FAINT, 6.0)
+        _legend_line(drawing, row_of_legend, "frontier", FAINT, 6.0)
         row_of_legend += _LINE
     if resolution > 0.0:
-        _named(drawing, row_of_legend, "errors are known to here", MUTED, 1.0, "1 3")
+        _legend_line(drawing, row_of_legend, "errors are known to here", MUTED, 1.0, "1 3")
     return drawing.svg(_FONT)
 
 
@@ -83,10 +83,10 @@ def _axes(drawing: Drawing, x: _Decades, y: _Decades) -> None:
         drawing.text((_LEFT - 8, y(value) + 3.5), f"{value:.0e}", "end", 10)
     drawing.line([(_LEFT, _TOP), (_LEFT, _BOTTOM), (_RIGHT, _BOTTOM)], INK, 0.8)
     drawing.text((0.5 * (_LEFT + _RIGHT), _BOTTOM + 38), "time of one solve [ms]", "middle", 11)
-    drawing.text((16, 0.5 * (_TOP + _BOTTOM)), "true relative error", "middle", 11, turned=True)
+    drawing.text((16, 0.5 * (_TOP + _BOTTOM)), "true relative error", "middle", 11, vertical=True)
 
 
-def _named(drawing: Drawing, place: float, name: str, stroke: str, width: float, dash: str | None = None) -> None:
+def _legend_line(drawing: Drawing, place: float, name: str, stroke: str, width: float, dash: str | None = None) -> None:
     """A line of the legend."""
     drawing.line([(_LEGEND, place), (_LEGEND + 24, place)], stroke, width, dash)
     drawing.text((_LEGEND + 32, place + 4), shortened(name, 30), size=10)

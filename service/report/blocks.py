@@ -176,7 +176,7 @@ def prose(value: float) -> str:
     return typeset(digits(value))
 
 
-def settled(value: float | None, scale: float, gap: float = 0.0) -> Cell:
+def figure_beside(value: float | None, scale: float, gap: float = 0.0) -> Cell:
     """A figure; what rounding leaves beside the scale is printed as 0, and what a gap outweighs as below the gap."""
     if value is not None and abs(value) < _DUST * abs(scale):
         return Number(value, "0")

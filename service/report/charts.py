@@ -141,7 +141,7 @@ def hodograph(
         drawing.text((x(low) - 4, y(value) + 3.5), tick(value), "end", 9)
         drawing.text((x(value), y(low) + 12), tick(value), "middle", 9)
     drawing.text((x(high), y(low) + 24), f"{axes[0]}, {large}{unit}", "end", 9, MUTED)
-    drawing.text((9, y(high)), f"{axes[1]}, {large}{unit}", "end", 9, MUTED, turned=True)
+    drawing.text((9, y(high)), f"{axes[1]}, {large}{unit}", "end", 9, MUTED, vertical=True)
     for index, ellipse in enumerate(ellipses):
         points = [(x(a / factor), y(b / factor)) for a, b in _ellipse(ellipse)]
         if ellipse.major / factor * (x.end - x.start) / (x.high - x.low) < _DOT:

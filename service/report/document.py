@@ -78,7 +78,7 @@ def document(
     answer: OptimizeAnswer,
     missing: tuple[FieldProblem, ...],
     at: datetime,
-    checked: Check | None = None,
+    outcome: Check | None = None,
 ) -> Document:
     """The document that says what an answer says.
 
@@ -86,7 +86,7 @@ def document(
     ----------
     missing : what the machine lacks for the eight stages, where the answer does not hold them.
     at : time that the document bears.
-    checked : what became of the claims of the answer; None where they were not checked, which the document then lacks.
+    outcome : what became of the claims of the answer; None where they were not checked, which the document then lacks.
     """
     date = at.astimezone(UTC).strftime("%Y-%m-%dT%H:%M:%SZ")
     office = request.document
@@ -111,7 +111,7 @@ def document(
         logo=None if office.logo is None else png(office.logo),
         notes=tuple(filter(None, map(str.strip, (office.notes or "").splitlines()))),
         opening=_OPENING,
-        chapters=tuple(_chapters(request, answer, missing, date, checked)),
+        chapters=tuple(_chapters(request, answer, missing, date, outcome)),
         file_stem=_file_stem(request),
         attachment=Attachment("request.json", reproduction.request_json(request)),
     )
@@ -128,7 +128,7 @@ def _chapters(
     answer: OptimizeAnswer,
     missing: tuple[FieldProblem, ...],
     date: str,
-    checked: Check | None,
+    outcome: Check | None,
 ) -> Iterator[Chapter]:
     # on the first page: what it comes to, and what is to be made
     built = as_built(request, answer)
@@ -147,12 +147,12 @@ def _chapters(
     yield from balance_quality(request.machine, answer)
     yield balance.before_and_after(request, answer, built)
     proof = verdict.certificate(request, answer)
-    if checked is not None:
-        proof = replace(proof, blocks=(*proof.blocks, sentence(checked, reproduction.digest(request))))
+    if outcome is not None:
+        proof = replace(proof, blocks=(*proof.blocks, sentence(outcome, reproduction.digest(request))))
     yield proof
     yield from prices(answer)
     # of the first page
     yield from outputs(request.machine, answer, but="foundation_loads")
     yield from sheets(request.machine, answer, built)
     yield reproduction.effects(answer.effects, request.outputs)
-    yield reproduction.appendix(request, date, checked)
+    yield reproduction.appendix(request, date, outcome)

@@ -45,7 +45,7 @@ def locus(title: str, unit: str, curves: Sequence[Curve]) -> Drawing:
         drawing.line([(left, y), (side - 8, y)], MUTED if value == 0 else FAINT, 0.8)
         drawing.text((left - 4, y + 3.5), tick(value), "end", 9)
     drawing.text((side - 8, bottom + 24), f"{title} x, {large}{unit}", "end", 9, MUTED)
-    drawing.text((9, 12), f"{title} y, {large}{unit}", "end", 9, MUTED, turned=True)
+    drawing.text((9, 12), f"{title} y, {large}{unit}", "end", 9, MUTED, vertical=True)
     for index, curve in enumerate(curves):
         closed = [*curve.points, *curve.points[:1]]
         drawing.line([place(point) for point in closed], curve.stroke, 1.6, curve.dash)

@@ -59,10 +59,10 @@ def pdf(document: Document) -> bytes:
         **({} if document.logo is None else {"logo.svg": _logo(document.logo)}),
         **drawings,
     }
-    made: bytes = typst.compile(
+    content_of_file: bytes = typst.compile(
         sources, font_paths=_fonts(), timestamp=datetime.fromisoformat(document.date), format="pdf"
     )
-    return made
+    return content_of_file
 
 
 def png(drawing: Drawing) -> bytes:
@@ -73,8 +73,8 @@ def png(drawing: Drawing) -> bytes:
     page = f"#set page(width: {width:.2f}pt, height: {height:.2f}pt, margin: 0pt, fill: none)\n"
     sources = {"main": f'{page}#image("drawing.svg", width: 100%)'.encode(), "drawing.svg": drawing.svg(_FONT).encode()}
     # a pixel is a point
-    made: bytes = typst.compile(sources, font_paths=_fonts(), format="png", ppi=72.0)
-    return made
+    pixels: bytes = typst.compile(sources, font_paths=_fonts(), format="png", ppi=72.0)
+    return pixels
 
 
 @cache

@@ -16,7 +16,7 @@ from service.drawings.front import front as drawn_front
 from service.drawings.layout import Layout, layout_of
 from service.drawings.side import side as drawn_side
 from service.drawings.svg import Drawing, beside, shortened
-from service.report.chapters.balance import carried, shown, which
+from service.report.chapters.balance import best_set, best_set_label, carried
 from service.report.chapters.bearing_loci import loci
 from service.report.chapters.orders import order_hodographs
 from service.report.chapters.pins import pin_figure
@@ -59,16 +59,16 @@ def styled(drawing: Drawing, style: PictureStyle) -> Drawing:
     if style == PictureStyle():
         return drawing
     above = 0.0 if style.title is None else _TITLE
-    made = Drawing(drawing.width, drawing.height + above, drawing.label)
+    result = Drawing(drawing.width, drawing.height + above, drawing.label)
     if style.width_px is not None:
-        made.scale = style.width_px / drawing.width
+        result.scale = style.width_px / drawing.width
     if not style.transparent:
-        made.area([(0, 0), (made.width, 0), (made.width, made.height), (0, made.height)], "white")
+        result.area([(0, 0), (result.width, 0), (result.width, result.height), (0, result.height)], "white")
     if style.title is not None:
         most = int(drawing.width / _LETTER)
-        made.text((0.5 * made.width, 18.0), shortened(style.title, most), "middle", 14.0)
-    made.inset(drawing, (0.0, above))
-    return made
+        result.text((0.5 * result.width, 18.0), shortened(style.title, most), "middle", 14.0)
+    result.inset(drawing, (0.0, above))
+    return result
 
 
 def _layout(request: OptimizeRequest, answer: OptimizeAnswer) -> Layout:
@@ -77,34 +77,36 @@ def _layout(request: OptimizeRequest, answer: OptimizeAnswer) -> Layout:
 
 
 def _hodograph(number: int, request: OptimizeRequest, answer: OptimizeAnswer) -> Drawing:
-    left, built = shown(answer)[1], as_built(request, answer)
+    left, built = best_set(answer)[1], as_built(request, answer)
     filed = None if built is None else built.left
-    return hodographs(request.machine, answer.residual.before, left, answer.floor, which(answer), filed)[number]
+    return hodographs(request.machine, answer.residual.before, left, answer.floor, best_set_label(answer), filed)[
+        number
+    ]
 
 
 def _bearings(request: OptimizeRequest, answer: OptimizeAnswer) -> Drawing:
     result = answer.main_bearings
-    drawn = [] if result is None else loci(request.machine, result)
+    pictures = [] if result is None else loci(request.machine, result)
     words = "loads of the main bearings as the shaft sees them, each with its smallest circle"
-    return _grid(words, drawn, "there are no loads of main bearings to draw")
+    return _grid(words, pictures, "there are no loads of main bearings to draw")
 
 
 def _indicator(request: OptimizeRequest, answer: OptimizeAnswer) -> Drawing:
-    drawn = [] if answer.gas is None else list(indicators(request.machine, answer.gas))
-    return _grid("indicator diagrams", drawn, "no row has a chamber whose pressure could be drawn", "throws")
+    pictures = [] if answer.gas is None else list(indicators(request.machine, answer.gas))
+    return _grid("indicator diagrams", pictures, "no row has a chamber whose pressure could be drawn", "throws")
 
 
 def _orders(_request: OptimizeRequest, answer: OptimizeAnswer) -> Drawing:
     figures = [] if answer.orders is None else order_hodographs(answer.orders)
-    drawn = [drawing for figure in figures for drawing in figure.drawings]
+    pictures = [drawing for figure in figures for drawing in figure.drawings]
     words = "hodographs of force and moment, order by order"
-    return _grid(words, drawn, "no order has a force or a moment to draw")
+    return _grid(words, pictures, "no order has a force or a moment to draw")
 
 
-def _grid(label: str, drawn: list[Drawing], nothing: str, *field: str) -> Drawing:
-    if not drawn:
+def _grid(label: str, pictures: list[Drawing], nothing: str, *field: str) -> Drawing:
+    if not pictures:
         raise OutOfRange([FieldProblem(("machine", *field), nothing)])
-    return beside(label, drawn)
+    return beside(label, pictures)
 
 
 def _pin_loads(_request: OptimizeRequest, answer: OptimizeAnswer) -> Drawing:

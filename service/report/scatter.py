@@ -59,11 +59,11 @@ def scatter(across: Column, upward: Column) -> Drawing:
     drawing.line([place(index) for index in best], BEFORE, 1.5)
     for index in best:
         drawing.circle(place(index), 2.5, BEFORE, BEFORE)
-    drawing.text((_LEFT, 14), _named(upward, unit_y), size=11)
-    drawing.text((right, bottom + 34), _named(across, unit_x), "end", 11)
+    drawing.text((_LEFT, 14), _title(upward, unit_y), size=11)
+    drawing.text((right, bottom + 34), _title(across, unit_x), "end", 11)
     drawing.text((right, 14), f"{count} designs, {len(best)} on the front", "end", 10, MUTED)
     return drawing
 
 
-def _named(column: Column, large: str) -> str:
+def _title(column: Column, large: str) -> str:
     return f"{column.name}, {large}{column.unit}" if column.unit or large else column.name

@@ -59,14 +59,14 @@ def _block(block: Block) -> Iterator[RenderableType]:
 
 def _grid(block: Table) -> Grid:
     # titles and cells come from requests: as texts they are no markup
-    made = Grid(title=Text(plain(block.title)) if block.title else None, title_justify="left", title_style="bold")
-    made.show_header = block.headed
+    grid = Grid(title=Text(plain(block.title)) if block.title else None, title_justify="left", title_style="bold")
+    grid.show_header = block.headed
     for column in block.columns:
         justify: Literal["left", "right"] = "right" if column.numeric else "left"
-        made.add_column(Text(plain(column.title)), justify=justify, overflow="fold")
+        grid.add_column(Text(plain(column.title)), justify=justify, overflow="fold")
     for row in block.rows:
-        made.add_row(*(Text(_text(cell)) for cell in row))
-    return made
+        grid.add_row(*(Text(_text(cell)) for cell in row))
+    return grid
 
 
 def _text(cell: Cell) -> str:
@@ -87,10 +87,10 @@ def _grouped(text: str) -> str:
 def _coarse(samples: Samples) -> Iterator[Table]:
     stride = max(1, round(len(samples.angle_deg) / (_COARSE_STEPS * turns_of(samples.angle_deg))))
     for first in range(0, len(samples.lines), _SIDE_BY_SIDE):
-        some = samples.lines[first : first + _SIDE_BY_SIDE]
+        lines = samples.lines[first : first + _SIDE_BY_SIDE]
         rows = [
-            (digits(samples.angle_deg[k]), *(values[k] for _, values in some))
+            (digits(samples.angle_deg[k]), *(values[k] for _, values in lines))
             for k in range(0, len(samples.angle_deg), stride)
         ]
-        heads = ["#angle, deg", *(f"#{name}" for name, _ in some)]
+        heads = ["#angle, deg", *(f"#{name}" for name, _ in lines)]
         yield table(f"{samples.title} over the cycle, {samples.unit}", heads, rows)

@@ -20,10 +20,10 @@ def endpoints() -> dict[str, Endpoint]:
 
 def router() -> APIRouter:
     """The routes of all computations, as they are documented; requests come to them by :mod:`service.http.direct`."""
-    made = APIRouter()
+    result = APIRouter()
     for computation in COMPUTATIONS.values():
         answers, about = of_computation(computation)
-        made.add_api_route(
+        result.add_api_route(
             computation.path,
             _endpoint(computation),
             methods=["POST"],
@@ -36,7 +36,7 @@ def router() -> APIRouter:
             responses=answers,
             openapi_extra=about,
         )
-    return made
+    return result
 
 
 def _endpoint(computation: Computation) -> Endpoint:

@@ -25,11 +25,11 @@ async def list_effects(request: Request) -> Response:
     return document.answer(request)
 
 
-def _listed(_: str) -> CachedDocument:
+def _catalogue(_: str) -> CachedDocument:
     # the optimiser, which the process of the service needs for nothing else: it would be ready later
     from optimizer.outputs.descriptions import catalogue
 
     return CachedDocument(catalogue().model_dump_json().encode(), "application/json")
 
 
-_LISTS = Shelf(_listed)
+_LISTS = Shelf(_catalogue)

@@ -28,7 +28,7 @@ _REVALIDATION = {"parameters": parameters("If-None-Match")}
     openapi_extra=_REVALIDATION,
 )
 async def list_examples(request: Request) -> Response:
-    return _listed(request.scope.get("root_path", "")).answer(request)
+    return _catalogue(request.scope.get("root_path", "")).answer(request)
 
 
 @router.get(
@@ -69,7 +69,7 @@ def _template(name: str) -> CachedDocument:
 
 
 @cache
-def _listed(prefix: str) -> CachedDocument:
+def _catalogue(prefix: str) -> CachedDocument:
     return CachedDocument(catalogue(prefix).model_dump_json().encode(), "application/json")
 
 

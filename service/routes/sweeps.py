@@ -36,7 +36,7 @@ from service.jobs.formats import FORMATS, Name
 from service.jobs.job import Job
 from service.jobs.owner_jobs import OwnerJobs, Rows
 from service.jobs.page import SweepPage
-from service.jobs.results import chosen, description
+from service.jobs.results import description, schema_of
 from service.jobs.worksheet import require_fits
 
 Pieces = Generator[bytes, None, None]
@@ -87,7 +87,7 @@ async def post_sweep(request: Request, computing: Computes, desk: Jobs) -> Respo
     workers: int = request.app.state.sweep_workers
 
     def work() -> Response:
-        sweep = computing.checked(SweepRequest, body)
+        sweep = computing.question(SweepRequest, body)
         if sweep.dry_run:
             from optimizer.studies.sweep.plan import plan
 
@@ -224,7 +224,7 @@ def read_results(
         return _streamed(request, _blocks(desk.answer(job)), "application/json", _NO_STORE)
     # who likes none of them is not refused
     name = format or negotiate(request, _BY_MEDIA_TYPE) or "ndjson"
-    schema = chosen(desk.schema(job), columns or ())
+    schema = schema_of(desk.schema(job), columns or ())
     last = None if limit is None else offset + limit
     rows = (desk.selection if select == "kept" and job.selects else desk.rows)(job, schema, offset, last)
     if name == "xlsx":
@@ -289,8 +289,8 @@ async def watch_sweep(request: Request, desk: Jobs, id: str) -> Response:  # noq
 
     first = await shared_look(request, (look.__qualname__, desk.view, where, id), look)
     job = first.job
-    seen = request.headers.get("last-event-id", "")
-    last = int(seen) if seen.isascii() and seen.isdecimal() and len(seen) < 19 else None
+    last_id = request.headers.get("last-event-id", "")
+    last = int(last_id) if last_id.isascii() and last_id.isdecimal() and len(last_id) < 19 else None
     if not job.active and last == job.version:
         # to an event source this says: do not come back
         return Response(status_code=204)

@@ -49,7 +49,7 @@ class Pair(NamedTuple):
         return _mass(self.optimum), _mass(self.built)
 
     @property
-    def turned_deg(self) -> float | None:
+    def rotation_deg(self) -> float | None:
         """From the optimum to what is fitted, in [-180, 180); None where one of them is none."""
         if self.optimum is None or self.built is None or not all(self.masses):
             return None
@@ -87,7 +87,7 @@ def as_built(request: OptimizeRequest, answer: OptimizeAnswer) -> AsBuilt | None
 
 
 def _pairs(optimum: Sequence[Counterweight], built: Sequence[Counterweight]) -> Iterator[Pair]:
-    best, fitted = ({counterweight.web: counterweight for counterweight in some} for some in (optimum, built))
+    best, fitted = ({counterweight.web: counterweight for counterweight in weights} for weights in (optimum, built))
     for web in dict.fromkeys((*best, *fitted)):
         yield Pair(web, best.get(web), fitted.get(web))
 
@@ -118,7 +118,7 @@ def line(pair: Pair, tolerance: Tolerance) -> list[Cell]:
     """Cells under :data:`HEADS`."""
     best, built = pair.masses
     off = None if tolerance.share is None else tolerance.share * best
-    angles = (_angle(pair.optimum), _angle(pair.built), pair.turned_deg)
+    angles = (_angle(pair.optimum), _angle(pair.built), pair.rotation_deg)
     return [pair.web, best, built, built - best, off, *angles, tolerance.angle_deg if best else None]
 
 

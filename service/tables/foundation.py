@@ -33,13 +33,13 @@ def oscillation(load: FoundationLoad | None, name: str) -> tuple[float, float] |
 
 def lines(loads: Sequence[OrderOfFoundation]) -> Lines:
     """The headings, and a line for each load of each order."""
-    shown = sets(loads)
+    headings = sets(loads)
     heads = ["order", "load"]
-    for words in shown.values():
+    for words in headings.values():
         heads += [f"{words}, N or N m", f"{words}, kN or kN m", f"{words}, phase, deg"]
     return [
         [*heads, "phases count from shaft angle, deg"],
-        *(_line(order, name, list(shown)) for order, name in _pairs(loads)),
+        *(_line(order, name, list(headings)) for order, name in _pairs(loads)),
     ]
 
 
@@ -49,9 +49,9 @@ def _pairs(loads: Sequence[OrderOfFoundation]) -> Iterator[tuple[OrderOfFoundati
             yield order, name
 
 
-def _line(order: OrderOfFoundation, name: str, shown: Sequence[str]) -> list[Cell]:
+def _line(order: OrderOfFoundation, name: str, fields: Sequence[str]) -> list[Cell]:
     cells: list[Cell] = [order.order, _LOADS[name]]
-    for when in shown:
+    for when in fields:
         load = oscillation(getattr(order, when), name)
         cells += [None] * 3 if load is None else [load[0], load[0] / _KILO, load[1]]
     return [*cells, order.dead_centre_deg]

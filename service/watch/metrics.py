@@ -64,7 +64,7 @@ class Metrics:
         )
         # what belongs to some labels is looked for once: they are few
         self._refused = cache(refusals.labels)
-        self._counted, self._lasted = cache(requests.labels), cache(request_seconds.labels)
+        self._requests, self._lasted = cache(requests.labels), cache(request_seconds.labels)
         self._took, self._solved = cache(computation_seconds.labels), cache(solve_seconds.labels)
         self._gap = cache(gaps.labels)
         self._faults = 0
@@ -75,7 +75,7 @@ class Metrics:
     def requested(self, method: str, route: str, status: int, seconds: float) -> None:
         """A request was answered; ``route`` is a template, not a path."""
         label = method if method in _METHODS else "other"
-        self._counted(label, route, str(status)).inc()
+        self._requests(label, route, str(status)).inc()
         self._lasted(route).observe(seconds)
 
     def refused(self, route: str, kind: str) -> None:
@@ -142,8 +142,8 @@ class _Sweeps(Collector):
         for state, (count, *_) in (totals or {}).items():
             jobs.add_metric([state], count)
         if totals is not None:
-            done, failed, invalid = (sum(counts[i] for counts in totals.values()) for i in (1, 2, 3))
-            rows.add_metric(["answered"], done - failed - invalid)
+            finished, failed, invalid = (sum(counts[i] for counts in totals.values()) for i in (1, 2, 3))
+            rows.add_metric(["answered"], finished - failed - invalid)
             rows.add_metric(["failed"], failed)
             rows.add_metric(["invalid"], invalid)
         yield jobs

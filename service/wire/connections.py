@@ -15,9 +15,9 @@ from service.common.problems import Fault
 from service.fairness.client import client_network
 from service.fairness.scheduler import FairScheduler
 from service.settings import Settings
+from service.wire.coalescing import CoalescingTransport
 from service.wire.framing import Framing, TwoLengths
 from service.wire.idleness import Idleness
-from service.wire.joined import Joined
 from service.wire.leaving import CLIENT, Client
 from service.wire.plain_requests import Head, Heads, PlainCycle
 from service.wire.refusal import last_answer, no_room
@@ -67,8 +67,8 @@ class Connection(H11Protocol):
         self.left: Callable[[], None] = _nothing
 
     def connection_made(self, transport: asyncio.Transport) -> None:  # type: ignore[override]
-        joined = Joined(transport, self.loop, self._still_sent, self.headers_timeout_s)
-        super().connection_made(joined)  # type: ignore[arg-type]
+        coalescing = CoalescingTransport(transport, self.loop, self._still_sent, self.headers_timeout_s)
+        super().connection_made(coalescing)  # type: ignore[arg-type]
         transport.set_write_buffer_limits(high=_UNREAD_BYTES)
         # what is read at a time: a client that sends more than is asked for fills no more than this
         transport.max_size = _READ_BYTES  # type: ignore[attr-defined]
@@ -95,7 +95,7 @@ class Connection(H11Protocol):
         super().connection_lost(exc)
         if self._asks is not None:
             self._asks.leave()
-        if isinstance(self.transport, Joined):
+        if isinstance(self.transport, CoalescingTransport):
             self.transport.ended()
 
     def data_received(self, data: bytes) -> None:

@@ -47,7 +47,7 @@ class Entrance:
     Parameters
     ----------
     rounds : whose connection is next.
-    made : makes a protocol.
+    factory : makes a protocol.
     patience_s : how long a connection for which there is no room may say nothing [s].
     """
 
@@ -56,11 +56,11 @@ class Entrance:
         listening: socket.socket,
         doors: ConnectionLimits,
         rounds: FairScheduler,
-        made: Callable[[], Connection],
+        factory: Callable[[], Connection],
         patience_s: float,
     ) -> None:
         self.doors = doors
-        self.made = made
+        self.factory = factory
         self.patience_s = patience_s
         self.loop = asyncio.get_running_loop()
         self.refused: set[_Refused] = set()
@@ -117,7 +117,7 @@ class Entrance:
         if not self._open:
             connection.close()
             return
-        protocol = self.made()
+        protocol = self.factory()
         protocol.left = partial(self.doors.leave, address)
         self.connect(connection, protocol)
 
@@ -202,7 +202,7 @@ class _Refused:
 
     def _let_ask(self) -> None:
         self._leave()
-        protocol = self._protocol = self._entrance.made()
+        protocol = self._protocol = self._entrance.factory()
         protocol.app = _probes_only(protocol.app)
         protocol.left = self._forget
         self._entrance.connect(self._connection, protocol)

@@ -47,21 +47,21 @@ class Pacing:
                 await send(message)
                 return
             holding: Holding | None = scope.get("state", {}).get("holding")
-            counted = len(body) if holding is not None and len(body) > PIECE_BYTES else 0
-            if holding is not None and counted:
+            size = len(body) if holding is not None and len(body) > PIECE_BYTES else 0
+            if holding is not None and size:
                 try:
-                    holding.take("answers", counted)
+                    holding.take("answers", size)
                 except OverShare as error:
                     if start is not None:
                         refused = True
                         await response(FAULTS[OverShare](error), scope["path"])(scope, receive, send)
                         return
                     # it has begun, and is as large already as it is
-                    counted = 0
+                    size = 0
             begin, start = start, None
             await self._hand_over(begin, message, "" if holding is None else holding.who, send)
-            if holding is not None and counted:
-                holding.give("answers", counted)
+            if holding is not None and size:
+                holding.give("answers", size)
 
         return self._app(scope, receive, paced)
 

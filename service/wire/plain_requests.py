@@ -87,9 +87,9 @@ class PlainCycle(RequestResponseCycle):
             await self.flow.drain()
         if self.disconnected:
             return
-        wanted = "http.response.body" if self.response_started else "http.response.start"
-        if message["type"] != wanted or self.response_complete:
-            raise RuntimeError(f"{message['type']} in place of {wanted}, or after the end of an answer")
+        kind = "http.response.body" if self.response_started else "http.response.start"
+        if message["type"] != kind or self.response_complete:
+            raise RuntimeError(f"{message['type']} in place of {kind}, or after the end of an answer")
         if not self.response_started:
             self.response_started = True
             self._begun = self._head(message["status"], [*self.default_headers, *message.get("headers", ())])
@@ -120,8 +120,8 @@ class PlainCycle(RequestResponseCycle):
             headers.append((b"Connection", b"close"))
         lines = [b"%b: %b" % header for header in headers]
         # one by one: a pattern of all three takes thirty times as long
-        joined = b"".join(lines)
-        if b"\r" in joined or b"\n" in joined or b"\0" in joined:
+        head = b"".join(lines)
+        if b"\r" in head or b"\n" in head or b"\0" in head:
             raise RuntimeError("a header would end in the middle")
         self._bodiless = self.scope["method"] == "HEAD" or status in _WITHOUT_BODY
         self._left = 0 if self._bodiless else length

@@ -43,8 +43,8 @@ class SecurityHeaders:
                 headers = message.get("headers", ())
                 fields = dict(headers)
                 page = fields.get(b"content-type", b"").startswith((b"text/html", b"image/svg"))
-                wanted = _wanted(page, fields.get(_POLICY), self._hsts_s if scope.get("scheme") == "https" else 0)
-                message["headers"] = [*headers, *[field for field in wanted if field[0] not in fields]]
+                additions = _additions(page, fields.get(_POLICY), self._hsts_s if scope.get("scheme") == "https" else 0)
+                message["headers"] = [*headers, *[field for field in additions if field[0] not in fields]]
             return send(message)
 
         return self._app(scope, receive, add)
@@ -52,13 +52,13 @@ class SecurityHeaders:
 
 # policies are those of the service, which are few
 @lru_cache(64)
-def _wanted(page: bool, policy: bytes | None, hsts_s: int) -> tuple[tuple[bytes, bytes], ...]:
+def _additions(page: bool, policy: bytes | None, hsts_s: int) -> tuple[tuple[bytes, bytes], ...]:
     if policy is None:
         policy = _PAGE if page else _NO_PAGE
-    wanted = [*_HEADERS, (_POLICY, policy)]
+    additions = [*_HEADERS, (_POLICY, policy)]
     # the older header knows no other origins
     if _FRAMED not in policy:
-        wanted.append((b"x-frame-options", b"DENY"))
+        additions.append((b"x-frame-options", b"DENY"))
     if hsts_s:
-        wanted.append((b"strict-transport-security", b"max-age=%d; includeSubDomains" % hsts_s))
-    return tuple(wanted)
+        additions.append((b"strict-transport-security", b"max-age=%d; includeSubDomains" % hsts_s))
+    return tuple(additions)

@@ -127,12 +127,12 @@ class _Server(uvicorn.Server):
         await super().startup([])
         for listening in sockets or ():
             entrance = Entrance(
-                listening, self._doors, self._protocol.rounds, self._made, self._protocol.headers_timeout_s
+                listening, self._doors, self._protocol.rounds, self._connection, self._protocol.headers_timeout_s
             )
             entrance.open()
             self._entrances.append(entrance)
 
-    def _made(self) -> Connection:
+    def _connection(self) -> Connection:
         return self._protocol(config=self.config, server_state=self.server_state, app_state=self.lifespan.state)
 
     async def shutdown(self, sockets: list[socket.socket] | None = None) -> None:

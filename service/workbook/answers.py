@@ -6,7 +6,7 @@ from schemas.answer.answers import OptimizeAnswer
 from schemas.request.requests import OptimizeRequest
 from service.tables import as_built, foundation
 from service.workbook.files import workbook
-from service.workbook.sheets import ANSWER, BUILT, COUNTERWEIGHTS, FOUNDATION, Sheets, flat, table, written
+from service.workbook.sheets import ANSWER, BUILT, COUNTERWEIGHTS, FOUNDATION, Sheets, flat, request_sheets, table
 
 
 def answered(request: OptimizeRequest, answer: OptimizeAnswer) -> bytes:
@@ -37,4 +37,4 @@ def requested(request: OptimizeRequest, _: object) -> bytes:
 
 def _request_sheets(request: OptimizeRequest) -> Sheets:
     fields: dict[str, Any] = request.model_dump(mode="json", exclude_unset=True)
-    return written(fields)
+    return request_sheets(fields)

@@ -27,14 +27,14 @@ def read_workbook(content: bytes) -> Read:
 
 
 @contextmanager
-def cells_named(workbook: Read) -> Iterator[None]:
+def cell_places(workbook: Read) -> Iterator[None]:
     """Within it, what is wrong with a field is said with the cell that the field stands in."""
     try:
         yield
     except (InvalidRequest, NotComputable) as error:
-        error.problems = _named(workbook, error.problems)
+        error.problems = _with_cells(workbook, error.problems)
         raise
 
 
-def _named(workbook: Read, problems: Sequence[FieldProblem]) -> list[FieldProblem]:
+def _with_cells(workbook: Read, problems: Sequence[FieldProblem]) -> list[FieldProblem]:
     return [FieldProblem(problem.path, f"{workbook.where(problem)}: {problem.message}") for problem in problems]

@@ -66,7 +66,7 @@ def census(content: bytes, most_bytes: int) -> Census:
     UnreadableWorkbook
         if it is too large, declares entities, or is no archive.
     """
-    counted = Census()
+    result = Census()
     try:
         with ZipFile(io.BytesIO(content)) as archive:
             parts = archive.infolist()
@@ -75,14 +75,14 @@ def census(content: bytes, most_bytes: int) -> Census:
             relations = _Relations()
             # the list of the sheets first, so that what follows can be named; what is read ends where the part says
             for part in sorted(parts, key=lambda part: "workbook.xml" not in part.filename):
-                _Part(basename(part.filename), counted, relations).count(archive.read(part))
-                counted.titles |= relations.titles()
+                _Part(basename(part.filename), result, relations).count(archive.read(part))
+                result.titles |= relations.titles()
     except UnreadableWorkbook:
         raise
     # whatever the library raises on files that are broken
     except Exception as error:
         raise UnreadableWorkbook("it is no xlsx file") from error
-    return counted
+    return result
 
 
 @dataclass
@@ -111,8 +111,8 @@ class _Relations:
 class _Part:
     """One part of the archive while it is parsed."""
 
-    def __init__(self, name: str, counted: Census, relations: _Relations) -> None:
-        self._name, self._counted, self._relations = name, counted, relations
+    def __init__(self, name: str, census_of_file: Census, relations: _Relations) -> None:
+        self._name, self._census, self._relations = name, census_of_file, relations
         self._root, self._elements = "", 0
         self._line, self._column = 0, 0
         self._formula, self._value, self._inside = False, False, ""
@@ -133,7 +133,7 @@ class _Part:
 
     @property
     def _title(self) -> str:
-        return self._counted.titles.get(self._name, self._name)
+        return self._census.titles.get(self._name, self._name)
 
     def _doctype(self, *_: Any) -> None:
         raise UnreadableWorkbook("it defines its own entities")
@@ -142,9 +142,9 @@ class _Part:
         name = name.rpartition(":")[2]
         self._root = self._root or name
         self._elements += 1
-        self._counted.elements += 1
+        self._census.elements += 1
         free = self._root in ("worksheet", "sst")
-        if self._counted.elements > MOST_ELEMENTS or (self._elements > MOST_OF_A_PART and not free):
+        if self._census.elements > MOST_ELEMENTS or (self._elements > MOST_OF_A_PART and not free):
             raise UnreadableWorkbook(f"{self._title} has more than {self._elements - 1} elements")
         if self._root == "worksheet":
             self._of_sheet(name, attributes)
@@ -164,7 +164,7 @@ class _Part:
             place = _PLACE.fullmatch(attributes.get("r", ""))
             column = column_index_from_string(place[1]) if place else self._column + 1
             line = int(place[2]) if place else self._line
-            self._counted.cells += max(column - self._column, 1)
+            self._census.cells += max(column - self._column, 1)
             self._line, self._column = line, column
             self._formula = self._value = False
         elif name == "f":
@@ -174,7 +174,7 @@ class _Part:
             raise UnreadableWorkbook(
                 f"{self._title}!{where}: a sheet has at most {MOST_LINES} lines and {MOST_COLUMNS} columns"
             )
-        if self._counted.cells > MOST_CELLS:
+        if self._census.cells > MOST_CELLS:
             raise UnreadableWorkbook(f"{self._title}: all sheets together have at most {MOST_CELLS} cells")
 
     def _text(self, text: str) -> None:
@@ -185,5 +185,5 @@ class _Part:
         name = name.rpartition(":")[2]
         if name == "c" and self._formula and not self._value:
             place = f"{get_column_letter(self._column)}{self._line}"
-            self._counted.unsaved.setdefault(self._name, []).append(place)
+            self._census.unsaved.setdefault(self._name, []).append(place)
         self._inside = ""

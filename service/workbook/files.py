@@ -34,7 +34,7 @@ def workbook_sheets(content: bytes, most_bytes: int = _MOST_BYTES, names: Collec
     Misplaced
         if a formula has no value, or a cell holds neither number nor text.
     """
-    counted = census(content, most_bytes)
+    contents = census(content, most_bytes)
     try:
         with warnings.catch_warnings():
             # what it does not support, such as rules of validation, is of no use here
@@ -50,7 +50,7 @@ def workbook_sheets(content: bytes, most_bytes: int = _MOST_BYTES, names: Collec
     except Exception as error:
         raise UnreadableWorkbook(f"it cannot be read: {type(error).__name__}") from error
     unsaved = "a formula without a value; save the file in the program that computes it"
-    wrong += [f"{title}!{place}: {unsaved}" for title, place in counted.of_sheets() if sheets.get(title)]
+    wrong += [f"{title}!{place}: {unsaved}" for title, place in contents.of_sheets() if sheets.get(title)]
     if wrong:
         raise Misplaced(wrong)
     return sheets

@@ -78,7 +78,7 @@ class Read:
 # ---- from a request
 
 
-def written(body: Mapping[str, Any]) -> Sheets:
+def request_sheets(body: Mapping[str, Any]) -> Sheets:
     """The sheets of a request."""
     machine = dict(body.get("machine", {}))
     throws = [dict(entry) for entry in machine.pop(_THROWS, ())]

@@ -72,8 +72,8 @@ def compute(lane: Lane, connection: socket.socket, answer: Callable[[Task], None
         task, priority = Task.receive(stream)
         while True:
             with ThreadPoolExecutor(1, initializer=_begin, initargs=(lane,)) as thread:
-                computed = partial(answer_all, lane, stream, answer)
-                while (following := thread.submit(computed, task, priority).result()) is None:
+                answers = partial(answer_all, lane, stream, answer)
+                while (following := thread.submit(answers, task, priority).result()) is None:
                     task, priority = Task.receive(stream)
                 task, priority = following
 
@@ -108,10 +108,10 @@ def _begin(lane: Lane) -> None:
 
 def _takes(priority: Priority) -> bool:
     """Whether this thread may have a priority; it has it then."""
-    wanted, own = niceness(priority, os.getpid()), _own()
-    if own < wanted:
-        os.setpriority(os.PRIO_PROCESS, 0, wanted)
-    return own <= wanted
+    target, own = niceness(priority, os.getpid()), _own()
+    if own < target:
+        os.setpriority(os.PRIO_PROCESS, 0, target)
+    return own <= target
 
 
 def _own() -> int:

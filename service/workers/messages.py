@@ -32,8 +32,8 @@ def say(to: socket.socket, item: object, file: BinaryIO | None = None) -> None:
     """
     content = pickle.dumps(item)
     message = _LENGTH.pack(len(content)) + content
-    sent = 0 if file is None else socket.send_fds(to, [message], [file.fileno()])
-    to.sendall(memoryview(message)[sent:] if sent else message)
+    first = 0 if file is None else socket.send_fds(to, [message], [file.fileno()])
+    to.sendall(memoryview(message)[first:] if first else message)
 
 
 class Listener:

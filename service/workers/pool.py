@@ -151,20 +151,20 @@ class Pool:
                     if not task.long:
                         await short.granted()
                         computing = True
-                        outcome = await self._computed(task, self._priority(short), short, long)
+                        outcome = await self._answer(task, self._priority(short), short, long)
                         if not isinstance(outcome, Long):
                             return outcome
                         computing = False
                         short.end()
                     await long.granted()
                     computing = True
-                    outcome = await self._computed(replace(task, long=True), Priority.LONG, short, long)
+                    outcome = await self._answer(replace(task, long=True), Priority.LONG, short, long)
                     assert not isinstance(outcome, Long), "a long computation has been granted"
                     return outcome
         except Full:
             self.counts.refused_busy += 1
-            turns = self._long if long.wanted else self._short
-            seconds = self._typical_s[long.wanted] * turns.waiting / turns.size
+            turns = self._long if long.asks_for_place else self._short
+            seconds = self._typical_s[long.asks_for_place] * turns.waiting / turns.size
             raise Busy(turns.waiting, max(1, round(seconds))) from None
         except TimeoutError:
             self.counts.ended_late += 1
@@ -175,12 +175,12 @@ class Pool:
         if self._short.more(turn.owner) or self._short.gives_way(turn):
             return Priority.FURTHER
         if turn.seldom:
-            for worker, other in self._busy.items():
-                if other.begun and not other.ended and not other.seldom:
+            for worker, turn_of_worker in self._busy.items():
+                if turn_of_worker.begun and not turn_of_worker.ended and not turn_of_worker.seldom:
                     worker.lower(Priority.FURTHER)
         return Priority.FIRST
 
-    async def _computed(self, task: Task, priority: Priority, short: Turn, long: Turn) -> Outcome | Long:
+    async def _answer(self, task: Task, priority: Priority, short: Turn, long: Turn) -> Outcome | Long:
         # the second one is new: the first may have died long before, and the next idle one with it
         for take in (self._free, self._fresh):
             worker = await take()

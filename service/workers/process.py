@@ -61,14 +61,14 @@ class Worker:
         self._says = Listener(answers)
         pairs = {lane: socket.socketpair() for lane in lanes.LANES}
         self._lanes = {lane: ours for lane, (ours, _) in pairs.items()}
-        passed = theirs, *(other for _, other in pairs.values())
+        passed = theirs, *(theirs_of_lane for _, theirs_of_lane in pairs.values())
         self._process: BaseProcess = context.Process(
             target=serve, args=(*passed, memory_bytes, folder), name="solver", daemon=True
         )
         try:
             with ExitStack() as ends:
-                for other in passed:
-                    ends.enter_context(other)
+                for theirs_of_lane in passed:
+                    ends.enter_context(theirs_of_lane)
                 self._process.start()
             with answers.makefile("rb") as stream:
                 failure = pickle.load(stream)

@@ -101,9 +101,9 @@ class Refused:
 
     @property
     def error(self) -> Exception:
-        made = self.kind.__new__(self.kind, *self.args)
-        vars(made).update(self.fields)
-        return made
+        error = self.kind.__new__(self.kind, *self.args)
+        vars(error).update(self.fields)
+        return error
 
 
 @dataclass(frozen=True)
@@ -263,10 +263,10 @@ def _request(task: Task, places: ExitStack) -> Model:
     if not task.workbook:
         return read_request(task.computation.request_model, task.body)
     # only who sends workbooks pays for the library
-    from service.workbook.body import cells_named, read_workbook
+    from service.workbook.body import cell_places, read_workbook
 
     cells = read_workbook(task.body)
-    places.enter_context(cells_named(cells))
+    places.enter_context(cell_places(cells))
     return check(task.computation.request_model, cells.body)
 
 

@@ -21,7 +21,7 @@ from service.cli import app
 from service.common.plain import inert
 from service.drawings.archive import zipped
 from service.drawings.bill import HEADS
-from service.drawings.drawn import drawings
+from service.drawings.drawing_set import drawings
 from tests.drawings.exchange import File, names
 
 EXAMPLE = Path("examples/drawings/2d12-plates.json")

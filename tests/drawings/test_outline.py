@@ -7,7 +7,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from schemas.machine.webs import Envelope
-from service.drawings.outline import Arc, Line, Outline, outline, points, turned
+from service.drawings.outline import Arc, Line, Outline, outline, points, rotation
 from tests.drawings.plates import HALF_ANGLES, mechanics_of, plates
 
 
@@ -39,7 +39,7 @@ def test_area_and_moment_are_those_of_the_plate(plate: Envelope, half_angle: flo
 
 @given(plates(), HALF_ANGLES, st.floats(-10.0, 10.0))
 def test_edges_follow_one_another_also_when_turned(plate: Envelope, half_angle: float, angle: float) -> None:
-    for edges in (outline(plate, half_angle), turned(outline(plate, half_angle), angle)):
+    for edges in (outline(plate, half_angle), rotation(outline(plate, half_angle), angle)):
         for one, following in zip(edges, (*edges[1:], edges[0]), strict=True):
             assert one.end == pytest.approx(following.start, abs=1e-12 * plate.outer_radius_m)
 

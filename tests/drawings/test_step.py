@@ -5,7 +5,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from schemas.machine.webs import Envelope
-from service.drawings.outline import outline, turned
+from service.drawings.outline import outline, rotation
 from service.drawings.step import Solid, step
 from tests.drawings.exchange import File, names
 from tests.drawings.plates import HALF_ANGLES, mechanics_of, plates
@@ -16,7 +16,7 @@ def test_solids_are_closed_and_of_the_volume_of_their_plates(
     plate: Envelope, half_angle: float, angle: float, position: float
 ) -> None:
     low, high = position - 0.5 * plate.thickness_m, position + 0.5 * plate.thickness_m
-    edges = turned(outline(plate, half_angle), angle)
+    edges = rotation(outline(plate, half_angle), angle)
     (volume,) = File(step("part", [Solid("part", edges, low, high)])).volumes()
     # independent: the closed form of the mass, of a density of 1; rounding grows with the distance along the shaft
     room = 1e-12 * 1e9 * plate.outer_radius_m**2 * (abs(position) + 1.0)

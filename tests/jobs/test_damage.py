@@ -149,7 +149,7 @@ def test_a_quota_counts_what_the_database_keeps(tmp_path: Path) -> None:
     with house.database.read() as connection:
         # what is in the log alone so far is written to the file as well
         connection.exec_driver_sql("PRAGMA wal_checkpoint")
-        parts = [room.taken(connection, owner) for owner in ("one", "two", "three")]
+        parts = [room.usage(connection, owner) for owner in ("one", "two", "three")]
     beside = [path.stat().st_size for path in tmp_path.glob("jobs.sqlite*")]
     # the file, its write-ahead log and the index of that
     assert len(beside) == 3

@@ -28,7 +28,7 @@ class Jobs:
         self.last, self.looks, self.states = last, 0, 0
         self.away = False
 
-    def those(self, ids: Collection[str]) -> list[Job]:
+    def by_ids(self, ids: Collection[str]) -> list[Job]:
         self.looks += 1
         if self.away:
             raise DatabaseUnavailable("it does not answer")

@@ -29,7 +29,7 @@ def computed(chunk: Chunk) -> tuple[Chunk, ChunkResult]:
 
 def test_all_rows_that_came_are_kept_once(house: House) -> None:
     job = house.submit(total=95, chunk_rows=10)
-    chunks = house.leases.claim_some("a", LEASE_S, 20)
+    chunks = house.leases.claim_chunks("a", LEASE_S, 20)
     for some in (chunks[:4], chunks):
         intake(house).keep_rows(job, [computed(chunk) for chunk in some])
     assert house.store.get(job).state == "done"
@@ -50,7 +50,7 @@ def test_rows_before_the_first_that_cannot_be_written_are_kept(
         return keep(self, job, start, stop, content)
 
     monkeypatch.setattr(JobFiles, "keep", breaks)
-    came = [computed(chunk) for chunk in house.leases.claim_some("a", LEASE_S, 8)]
+    came = [computed(chunk) for chunk in house.leases.claim_chunks("a", LEASE_S, 8)]
     with pytest.raises(CannotWrite, match=f"rows {first} to {first + 9} cannot be written: No space left"):
         intake(house).keep_rows(job, came)
     assert house.store.get(job).done == first

@@ -173,7 +173,7 @@ def test_a_crash_between_a_name_and_its_record_costs_nothing(settings: Settings)
     jobs, parts = desk.of(), desk._parts
     done = jobs.get(DONE)
     for piece in parts.store.pieces(DONE):
-        parts.files.named(DONE, piece)
+        parts.files.renamed_file(DONE, piece)
     Housekeeping(parts.store, parts.retention, parts.files).tidy()
     assert pa.Table.from_batches(jobs.rows(done, jobs.schema(done)).batches).num_rows == 400
     assert jobs.get(DONE).repaired == 0

@@ -129,7 +129,7 @@ def test_a_window_is_filled_in_sixteenths_and_no_further(
     house: House, monkeypatch: pytest.MonkeyPatch, window: int, at_a_time: int
 ) -> None:
     asked: list[int] = []
-    claim = house.leases.claim_some
+    claim = house.leases.claim_chunks
 
     def told(owner: str, lease_s: float, most: int, *more: Any, **named: Any) -> list[Chunk]:
         asked.append(most)
@@ -137,7 +137,7 @@ def test_a_window_is_filled_in_sixteenths_and_no_further(
 
     house.submit(total=100, chunk_rows=1)
     step = Steps(house, window)
-    monkeypatch.setattr(house.leases, "claim_some", told)
+    monkeypatch.setattr(house.leases, "claim_chunks", told)
     assert step() == [(n, n + 1) for n in range(window)]
     # the first looks for what went wrong before
     assert asked == [1, *[at_a_time] * (window // at_a_time)]
@@ -289,7 +289,7 @@ def test_pauses_grow_while_the_database_is_away(
     assert sum(str(error) in record.getMessage() for record in caplog.records) == 1
     assert house.store.get(job).state == ("failed" if marked else "running")
     # the leases are given back: a service that comes next starts at once
-    assert len(house.leases.claim_some("another", PACE.lease_s, 5)) == (0 if marked else 2)
+    assert len(house.leases.claim_chunks("another", PACE.lease_s, 5)) == (0 if marked else 2)
 
 
 def test_an_engine_that_is_away_is_asked_again_later(house: House, monkeypatch: pytest.MonkeyPatch) -> None:

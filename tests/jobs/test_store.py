@@ -109,9 +109,9 @@ def test_a_small_job_does_not_wait_for_a_large_one(any_house: House) -> None:
 
 def test_many_chunks_of_one_job_in_one_transaction(any_house: House) -> None:
     store, leases, job = any_house.store, any_house.leases, any_house.submit(total=95, chunk_rows=10)
-    some, rest = leases.claim_some("a", LEASE_S, 4), leases.claim_some("a", LEASE_S, 20)
+    some, rest = leases.claim_chunks("a", LEASE_S, 4), leases.claim_chunks("a", LEASE_S, 20)
     assert [chunk.start for chunk in (*some, *rest)] == list(range(0, 95, 10))
-    assert leases.claim_some("a", LEASE_S, 4) == []
+    assert leases.claim_chunks("a", LEASE_S, 4) == []
     before = store.get(job).version
     assert leases.finish([Computed(chunk, 1, "d", 9, 2) for chunk in some]) == [True] * 4
     found = store.get(job)
@@ -128,7 +128,7 @@ def test_many_chunks_of_one_job_in_one_transaction(any_house: House) -> None:
 
 def test_many_chunks_at_a_time_go_to_one_job_after_the_other(any_house: House) -> None:
     large, small = any_house.submit(total=200), any_house.submit(total=60)
-    turns = [any_house.leases.claim_some("a", LEASE_S, 3) for _ in range(4)]
+    turns = [any_house.leases.claim_chunks("a", LEASE_S, 3) for _ in range(4)]
     assert [{chunk.job for chunk in turn} for turn in turns] == [{large}, {small}, {large}, {small}]
     assert [len(turn) for turn in turns] == [3, 3, 3, 3]
 

@@ -271,7 +271,7 @@ FUNCTIONS: dict[str, Callable[[Design], Any]] = {
     "indicated work": lambda one: gas.indicated_work(one.chambers, one.layout),
     "rod": _rod,
     "shaft loads": lambda one: rod.shaft_loads(one.over_turn, _moving(one), one.layout, one.angle),
-    "turned": lambda one: angles.turned(one.layout.sense, one.angle),
+    "turned": lambda one: angles.shaft_vectors(one.layout.sense, one.angle),
     "angles": lambda one: angles.angle_deg(one.unbalance),
     "rotating": lambda one: inertia.rotating(one.layout),
     "orders": lambda one: [inertia.reciprocating(one.layout, order) for order in (1, 2, 4)],

@@ -214,7 +214,7 @@ def _plates(name: str) -> list[Any]:
     figures = [masses, unbalances, plates.lever(angle), plates.inertia(angle), plates.chord(angle)]
     opened = [
         plates.opened(unbalances), plates.opened_for(masses), plates.mass_of(unbalances),
-        plates.opened_by_both(masses, unbalances / masses), plates.opened_for(10.0 * masses),
+        plates.opened_by_mass(masses, unbalances / masses), plates.opened_for(10.0 * masses),
     ]  # fmt: skip
     every = np.array([0.4, 0.3, 9.0, 0.2])
     fits = (shapes.fitted(one, angle), shapes.closed(one), shapes.fitted_masses(one, every))

@@ -49,6 +49,6 @@ def test_openings_near_a_right_angle_are_those_of_their_masses(below: float) -> 
     angle = full - np.full(2, below)
     mass, unbalance = plates.mass(angle), plates.unbalance(angle)
     for rounding in (-1e-15, 0.0, 1e-15):
-        found = plates.opened_by_both(mass, unbalance * (1.0 + rounding) / mass)
+        found = plates.opened_by_mass(mass, unbalance * (1.0 + rounding) / mass)
         assert plates.mass(found) == pytest.approx(mass, rel=1e-13)
         assert np.all(found <= full)

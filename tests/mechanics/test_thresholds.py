@@ -83,7 +83,7 @@ def test_openings_near_a_right_angle_are_told_by_masses() -> None:
     for angle in (1.2, 1.505, 1.52, 1.55, right - 1e-5, right):
         both = np.full(2, angle)
         mass = plates.mass(both)
-        found = plates.opened_by_both(mass, plates.unbalance(both) / mass)
+        found = plates.opened_by_mass(mass, plates.unbalance(both) / mass)
         np.testing.assert_allclose(found, both, rtol=0, atol=2e-11 if angle > 1.5 else 1e-12)
         np.testing.assert_allclose(plates.opened_for(mass), both, rtol=0, atol=1e-14)
 

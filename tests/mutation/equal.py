@@ -14,8 +14,8 @@ _MECHANICS: dict[str, str] = {
     "row_data.py _opened: np.where(closed, suction, 1.0) -> np.where(closed, suction, 1.011)": _OPEN,
     "friction.py reciprocating_friction: np.abs(motion.sine) < 1e-12 -> np.abs(motion.sine) <= 1e-12": _ALIKE,
     "layout.py _unbalances: angle + 180.0 -> angle - 180.0": "a whole turn",
-    "row_series.py functions: self._memo.get(True) or self._memo.get(pressed)"
-    " -> self._memo.get(True) and self._memo.get(pressed)": _SPEED,
+    "row_series.py functions: self._memo.get(True) or self._memo.get(with_gas)"
+    " -> self._memo.get(True) and self._memo.get(with_gas)": _SPEED,
     "whole_turn.py _alone: self.rows.crank_radius.shape[-1] -> self.rows.crank_radius.shape[+1]": "it has two axes",
     "indicated.py _WIDEST_PANEL": _FINER,
     "turn.py _NODES": _FINER,
@@ -55,7 +55,7 @@ _PROGRAM: dict[str, str] = {
     "methods/compiled.py _solve: statement.limits.radius.shape[-1] -> statement.limits.radius.shape[-2]": "without webs"
     " the same is found by solving",
     "methods/polish.py lightened: statement.limits.radius.size == 0 -> statement.limits.radius.size == 1": _STEERS,
-    "methods/compiled.py _in_any_limits: points_at(statement.subset(left), nearest).excess < 0"
+    "methods/compiled.py _general: points_at(statement.subset(left), nearest).excess < 0"
     " -> points_at(statement.subset(left), nearest).excess < 1": _STEERS,
     "methods/discs.py in_discs: np.argmax(np.abs(lines), axis=-1) -> np.argmax(np.abs(lines), axis=+1)": "it has two"
     " axes",
@@ -282,7 +282,7 @@ _SERVICE: dict[str, str] = {
     "jobs/coordinator.py _begin: 0 -> 1": "of a chunk of rows it is not read: a selection alone covers any",
     "jobs/coordinator.py _collect_rows: len(came) > _AT_A_TIME -> len(came) >= _AT_A_TIME": _SPEED,
     "jobs/coordinator.py stop: self._thread.join(6) -> self._thread.join(7)": _FINER,
-    "report/chapters/bearing_loci.py _turned: -1j * sense -> -1j / sense": "a sense is 1 or -1",
+    "report/chapters/bearing_loci.py _on_shaft: -1j * sense -> -1j / sense": "a sense is 1 or -1",
     "report/charts.py hodograph: ellipse.major / factor * (x.end - x.start) / (x.high - x.low) < _DOT"
     " -> ellipse.major / factor * (x.end - x.start) / (x.high - x.low) <= _DOT": _ALIKE,
     "report/charts.py chart: place[0] + 22 -> place[0] + 23": _LOOKS,

@@ -13,7 +13,7 @@ from service.computations.computation import XLSX
 from service.computations.table import COMPUTATIONS
 from service.documents.examples import bodies
 from service.workbook.files import workbook
-from service.workbook.sheets import Sheets, written
+from service.workbook.sheets import Sheets, request_sheets
 from tests.network.serving import Reply, Service, read
 from tests.workbook.bombs import BOMBS
 
@@ -92,7 +92,7 @@ def requests(random: Random) -> Iterator[Sent]:
 @cache
 def _books() -> list[Sheets]:
     """The examples as sheets; to make them takes longer than to send them."""
-    return [written(body) for body in bodies().values()]
+    return [request_sheets(body) for body in bodies().values()]
 
 
 @cache

@@ -14,8 +14,8 @@ from uvicorn.server import ServerState
 
 from service.fairness.scheduler import FairScheduler
 from service.settings import Settings
+from service.wire.coalescing import CoalescingTransport
 from service.wire.connections import Connection, connections
-from service.wire.joined import Joined
 from service.wire.server import listen
 from tests.network.serving import Service, read, request
 
@@ -31,13 +31,13 @@ async def app(_: Scope, receive: Receive, send: Send) -> None:
 def test_a_kept_connection_waits_for_no_acknowledgement(monkeypatch: pytest.MonkeyPatch) -> None:
     # independent of any clock: what makes an answer wait is a socket that gathers, or an answer in two parts
     written: list[int] = []
-    write = Joined.flush
+    write = CoalescingTransport.flush
 
-    def counted(self: Joined) -> None:
-        written.append(len(self._held))
+    def counted(self: CoalescingTransport) -> None:
+        written.append(len(self._buffer))
         write(self)
 
-    monkeypatch.setattr(Joined, "flush", counted)
+    monkeypatch.setattr(CoalescingTransport, "flush", counted)
 
     async def ask() -> tuple[int, list[bytes]]:
         loop, state = asyncio.get_running_loop(), ServerState()
@@ -101,7 +101,7 @@ def test_a_client_that_has_gone_leaves_no_fault_behind() -> None:
         async with await loop.create_server(Peer, sock=listening):
             client = socket.create_connection(listening.getsockname()[:2])
             transport = await made
-            joined = Joined(transport, loop, lambda: True, 60.0)
+            joined = CoalescingTransport(transport, loop, lambda: True, 60.0)
             # nothing looks at the socket in between, so that only the closing itself can see it
             transport.pause_reading()
             client.setsockopt(socket.SOL_SOCKET, socket.SO_LINGER, struct.pack("ii", 1, 0))

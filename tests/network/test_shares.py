@@ -31,7 +31,7 @@ def test_a_client_has_its_share_and_all_have_theirs() -> None:
     assert [rows.take("a", 2), rows.take("a"), rows.take("b")] == [True, False, True]
     # one is assured to everybody, though all are taken
     assert [rows.take("c"), rows.take("b")] == [True, False]
-    assert [rows.held(who) for who in "abc"] == [2, 1, 1]
+    assert [rows.holding_of(who) for who in "abc"] == [2, 1, 1]
     with pytest.raises(OverShare, match="Too many streams of rows"):
         Holding(found, "a").take("rows")
     # of another kind there is as much as before
@@ -49,7 +49,7 @@ def test_what_a_request_holds_ends_with_it() -> None:
     one.give("answers", MB)
     one.take("rows")
     one.end()
-    assert (found["answers"].held("a"), found["rows"].held("a")) == (0, 0)
+    assert (found["answers"].holding_of("a"), found["rows"].holding_of("a")) == (0, 0)
 
 
 def answered(held: Holding, parts: Sequence[bytes]) -> list[dict[str, Any]]:
@@ -80,7 +80,7 @@ def test_an_answer_is_whole_whatever_its_pieces(size: int) -> None:
     assert b"".join(piece["body"] for piece in pieces) == body
     assert max(len(piece["body"]) for piece in pieces) <= PIECE_BYTES
     assert [piece.get("more_body", False) for piece in pieces] == [True] * (len(pieces) - 1) + [False]
-    assert found["answers"].held("a") == 0
+    assert found["answers"].holding_of("a") == 0
 
 
 def test_an_answer_over_the_share_is_answered_429_in_its_place() -> None:
@@ -91,7 +91,7 @@ def test_an_answer_over_the_share_is_answered_429_in_its_place() -> None:
     said = Problem.model_validate_json(body["body"])
     assert (start["status"], said.title, said.instance) == (429, "Over share", "/x")
     assert (b"retry-after", b"1") in start["headers"]
-    assert found["answers"].held("a") == 2 * MB
+    assert found["answers"].holding_of("a") == 2 * MB
     # a small one is not counted, and one that has begun is not broken off
     for parts in ([bytes(PIECE_BYTES)], [b"begun", bytes(MB)]):
         start, *pieces = answered(Holding(found, "a"), parts)

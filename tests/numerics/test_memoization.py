@@ -1,6 +1,6 @@
 """What is made once for all that asks for it."""
 
-from optimizer.numerics.memoization import remembered, remembered_of_both
+from optimizer.numerics.memoization import remembered, remembered_of_pair
 
 
 def test_what_was_made_of_the_very_same_is_not_made_again() -> None:
@@ -12,7 +12,7 @@ def test_what_was_made_of_the_very_same_is_not_made_again() -> None:
         made.append((one,))
         return len(made)
 
-    @remembered_of_both
+    @remembered_of_pair
     def both(one: object, other: object) -> int:
         made.append((one, other))
         return len(made)

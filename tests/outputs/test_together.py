@@ -60,14 +60,14 @@ def test_a_peak_does_not_depend_on_what_is_searched_beside_it(name: str) -> None
 
 def test_outputs_without_floors_need_one_search(monkeypatch: pytest.MonkeyPatch) -> None:
     searches: list[int] = []
-    bracketed = piecewise_cubics._bracketed
+    bracketed = piecewise_cubics._brackets
 
     def counted(pieces: piecewise_cubics.Pieces, *rest: Any) -> piecewise_cubics.Bracket:
         searches.append(len(pieces.half))
         assert isinstance(pieces.source, curve_batch.CurveBatch)
         return bracketed(pieces, *rest)
 
-    monkeypatch.setattr(piecewise_cubics, "_bracketed", counted)
+    monkeypatch.setattr(piecewise_cubics, "_brackets", counted)
     request = AnalyzeRequest.model_validate({"machine": _example("2d12"), "outputs": _SHOWN[:-1]})
     fields(prepare(request, request.outputs), np.zeros(len(request.machine.webs), complex), request.outputs)
     # two rows in five readings, the torque and the roll

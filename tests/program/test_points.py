@@ -11,7 +11,7 @@ from optimizer.program.kernel.judging import is_better, step_towards
 from optimizer.program.methods.compiled import pulled, suits_kernel
 from optimizer.program.methods.disc_programs import suits_discs
 from optimizer.program.points import points_at
-from optimizer.program.solution import CEILING_ROUNDING, ConeSolution, evaluated, joined
+from optimizer.program.solution import CEILING_ROUNDING, ConeSolution, evaluated, side_by_side
 from tests.program.cases import random_point
 from tests.program.test_leading_axes import WEBS, _multipliers, _program
 
@@ -106,7 +106,7 @@ def test_ceilings_are_kept_to_their_tolerance_and_to_rounding(excess: float, kee
 
 
 def test_parts_are_put_in_the_order_of_all_programs() -> None:
-    assert joined([np.array([2.0]), np.array([5.0])], np.array([1, 0])).tolist() == [5.0, 2.0]
+    assert side_by_side([np.array([2.0]), np.array([5.0])], np.array([1, 0])).tolist() == [5.0, 2.0]
 
 
 @pytest.mark.parametrize(

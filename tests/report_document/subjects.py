@@ -16,8 +16,8 @@ from schemas.request.requests import OptimizeRequest
 from service.computations.table import COMPUTATIONS
 from service.documents.examples import bodies
 from service.report.blocks import Chapter
-from service.report.chapters.accuracy import measured
-from service.report.chapters.counts import counted
+from service.report.chapters.accuracy import ladders
+from service.report.chapters.counts import count_table
 from service.report.chapters.inputs import inputs
 from tests.optimize.machines import machine, row, throw, web
 from tests.report_document.follow import NOWHERE, Subject
@@ -187,7 +187,7 @@ def _asked(body: Any) -> Subject:
 
 def _accuracy(**changes: Any) -> Subject:
     answer = AccuracyAnswer.model_validate({**_MEASURED, **changes})
-    return Subject(answer, lambda found: measured(None, found))  # type: ignore[arg-type]
+    return Subject(answer, lambda found: ladders(None, found))  # type: ignore[arg-type]
 
 
 def accuracy(*rungs: dict[str, Any]) -> AccuracyAnswer:
@@ -196,7 +196,7 @@ def accuracy(*rungs: dict[str, Any]) -> AccuracyAnswer:
 
 
 def _counts() -> Subject:
-    return Subject(CountFront.model_validate(_COUNTS), lambda found: [Chapter("Numbers", (counted(found),))])
+    return Subject(CountFront.model_validate(_COUNTS), lambda found: [Chapter("Numbers", (count_table(found),))])
 
 
 _MADE: dict[str, Callable[[], Subject]] = {

@@ -18,7 +18,7 @@ from schemas.request.requests import AnalyzeRequest, OptimizeRequest
 from service.common.figures import digits, typeset
 from service.documents.examples import bodies
 from service.drawings.bill import as_csv
-from service.drawings.drawn import drawings
+from service.drawings.drawing_set import drawings
 from service.drawings.sheet import sheet
 from service.report import pictures
 from service.report.blocks import Number, Paragraph, Table

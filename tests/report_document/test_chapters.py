@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 from optimizer.optimize import optimize
 from schemas.answer.outputs import OrdersComparison
-from service.report.blocks import Number, Paragraph, Table, angle, extremes, settled, turns_of
+from service.report.blocks import Number, Paragraph, Table, angle, extremes, figure_beside, turns_of
 from service.report.chapters.orders import orders
 from service.report.chapters.reproduction import _lines
 from tests.report_document.conftest import asked
@@ -78,7 +78,7 @@ def test_orders_are_settled_by_force_and_moment_of_the_first(
 def test_what_rounding_leaves_is_nothing_and_what_a_gap_outweighs_is_below_it(
     value: float | None, scale: float, gap: float, text: str
 ) -> None:
-    cell = settled(value, scale, gap)
+    cell = figure_beside(value, scale, gap)
     assert (cell.text if isinstance(cell, Number) else cell) == text
 
 

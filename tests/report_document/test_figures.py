@@ -8,7 +8,7 @@ from optimizer.optimize import optimize
 from schemas.machine.reciprocating import ReciprocatingMachine
 from schemas.request.requests import OptimizeRequest
 from service.documents.examples import load
-from service.report.blocks import Number, Paragraph, Table, settled
+from service.report.blocks import Number, Paragraph, Table, figure_beside
 from service.report.chapters.balance_quality import balance_quality
 from service.report.chapters.built import _cells
 from service.report.chapters.inputs import _reciprocating
@@ -55,7 +55,9 @@ def test_a_tolerance_alone_is_written_as_one() -> None:
 
 
 def test_nothing_is_not_below_a_gap() -> None:
-    shown = [cell.text for cell in (settled(value, 0.0, 0.5) for value in (0.1, 0.0, 0.5)) if isinstance(cell, Number)]
+    shown = [
+        cell.text for cell in (figure_beside(value, 0.0, 0.5) for value in (0.1, 0.0, 0.5)) if isinstance(cell, Number)
+    ]
     assert [text.startswith("<") for text in shown] == [True, False, False]
 
 

@@ -15,7 +15,8 @@ from schemas.scroll.pin_loads import PinLoadsRequest
 from service.app import create_app
 from service.computations.table import COMPUTATIONS
 from service.report.blocks import Number, Paragraph, Table
-from service.report.chapters.pins import _assumption, loaded
+from service.report.chapters.pins import _assumption
+from service.report.chapters.pins import pins as chapters_of_pins
 from service.settings import Settings
 from service.tables.pins import lines
 from tests.report_document.conftest import asked
@@ -38,7 +39,7 @@ def test_the_table_is_the_formula() -> None:
 def test_dead_points_are_where_a_load_is_nothing() -> None:
     request = PinLoadsRequest.model_validate(EVEN)
     answer = pin_loads(request)
-    (chapter,) = loaded(request, answer)
+    (chapter,) = chapters_of_pins(request, answer)
     tables = {block.title: block for block in chapter.blocks if isinstance(block, Table)}
     data = tables["Dead points, stiffness and clearance"]
     dead = [[cell.value for cell in row[1:3] if isinstance(cell, Number)] for row in data.rows]
@@ -57,7 +58,7 @@ def test_stiffness_and_clearance_are_in_view() -> None:
         {"angle_deg": 120 * k, "radius_m": 0.05, "stiffness_N_per_m": 2e7, "clearance_m": 1e-5 * k} for k in range(3)
     ]
     request = PinLoadsRequest.model_validate({"pins": pins, "rotation_torque_Nm": 12.5})
-    (chapter,) = loaded(request, pin_loads(request))
+    (chapter,) = chapters_of_pins(request, pin_loads(request))
     tables = {block.title: block for block in chapter.blocks if isinstance(block, Table)}
     rows = tables["Dead points, stiffness and clearance"].rows
     assert [row[3].value for row in rows if isinstance(row[3], Number)] == [2e7] * 3

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from optimizer.responses.moving_curves import Harmonics, moved
+from optimizer.responses.moving_curves import Harmonics, with_harmonics
 from tests.responses.fourier import FourierCurves
 
 
@@ -15,7 +15,7 @@ def test_peaks_of_moved_curves_are_those_of_a_fine_grid(seed: int) -> None:
     by = Harmonics(np.array([-2.0, 0.0, 1.0, -3.0]), rng.normal(size=4) + 1j * rng.normal(size=4))
     grid = np.linspace(0.0, 2.0 * np.pi, 36_001)
     for number in range(3):
-        found = moved(base.pieces, number, by).peaks(np.zeros(1, complex), 1e-9)
+        found = with_harmonics(base.pieces, number, by).peaks(np.zeros(1, complex), 1e-9)
         values = np.abs(base.at(grid)[number] + by.at(grid))
         assert found.lower[0] <= found.upper[0] <= found.lower[0] * (1.0 + 2e-9)
         assert np.max(values) <= found.upper[0] * (1.0 + 1e-12)
@@ -28,6 +28,6 @@ def test_a_curve_that_is_cancelled_but_for_one_harmonic_is_a_circle() -> None:
     # analytic
     base = FourierCurves(np.array([1.0, 2.0]), np.array([[3.0, 0.5j]]))
     by = Harmonics(np.array([1.0]), np.array([-3.0 + 0j]))
-    found = moved(base.pieces, 0, by).peaks(np.zeros(1, complex), 1e-9)
+    found = with_harmonics(base.pieces, 0, by).peaks(np.zeros(1, complex), 1e-9)
     assert found.lower[0] == pytest.approx(0.5, rel=1e-12)
     assert found.upper[0] == pytest.approx(0.5, rel=1e-8)

@@ -12,7 +12,7 @@ from optimizer.mechanics.whole_turn import WholeTurn
 from optimizer.numerics.arrays import Complex, Real
 from optimizer.outputs.registry import prepare
 from optimizer.responses import worst_masses as scattered
-from optimizer.responses.boxes import Cells, Seen, worst_masses
+from optimizer.responses.boxes import CellBounds, Cells, worst_masses
 from optimizer.responses.component import component
 from optimizer.responses.curve import TurnResponse, peaks
 from optimizer.responses.mass_scatter import peaks_astray
@@ -82,7 +82,7 @@ def test_a_steep_peak_at_a_jump_is_left_to_rounding(
     """
     cells, look = [0], scattered.look
 
-    def counted(some: Cells) -> Seen:
+    def counted(some: Cells) -> CellBounds:
         cells[0] += some.member.size
         return look(some)
 

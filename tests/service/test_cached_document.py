@@ -43,7 +43,7 @@ def test_it_is_made_once_however_many_ask_and_the_loop_goes_on() -> None:
 
 @pytest.mark.parametrize(("content", "packed"), [(_LONG, True), (b"short", False)])
 def test_it_is_compressed_before_it_is_sent(content: bytes, packed: bool) -> None:
-    found = Shelf[str](lambda _: CachedDocument(content, "text/plain")).made("it")
+    found = Shelf[str](lambda _: CachedDocument(content, "text/plain")).document("it")
     assert ("compressed" in vars(found)) == packed
 
 
@@ -58,5 +58,5 @@ def test_what_could_not_be_made_is_tried_again() -> None:
 
     shelf = Shelf(make)
     with pytest.raises(OSError, match="no disk"):
-        shelf.made("it")
-    assert shelf.made("it").content == _LONG
+        shelf.document("it")
+    assert shelf.document("it").content == _LONG

@@ -8,7 +8,7 @@ import pytest
 import service
 from service.app import FAULTS
 from service.common.problems import FaultTable, fixed, later_by_error
-from service.http.errors import joined
+from service.http.errors import union
 
 
 def declared() -> dict[str, FaultTable]:
@@ -34,7 +34,7 @@ def test_every_fault_is_declared_by_the_room_of_its_exception() -> None:
 def test_no_exception_stands_in_two_tables() -> None:
     table = {KeyError: fixed(404, "Not there")}
     with pytest.raises(ValueError, match="in two tables of faults: KeyError"):
-        joined(table, {ValueError: fixed(422, "Wrong")}, table)
+        union(table, {ValueError: fixed(422, "Wrong")}, table)
 
 
 @pytest.mark.parametrize(("after_s", "headers"), [(3, {"Retry-After": "3"}), (0, {"Retry-After": "0"}), (None, {})])

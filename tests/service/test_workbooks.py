@@ -15,7 +15,7 @@ from schemas.request.requests import OptimizeRequest
 from service.computations.computation import XLSX
 from service.documents.examples import bodies
 from service.workbook.files import workbook, workbook_sheets
-from service.workbook.sheets import written
+from service.workbook.sheets import request_sheets
 from tests.night import part
 
 OPTIMIZE, CONVERT = "/v1/optimize", "/v1/convert"
@@ -66,7 +66,7 @@ def test_a_workbook_may_be_answered_in_json_and_json_in_a_workbook(
     post: Callable[..., Any], post_workbook: Callable[..., Any], body: dict[str, Any]
 ) -> None:
     plain = post(OPTIMIZE, json.dumps(body)).json()
-    assert post_workbook(workbook(written(body))).json()["counterweights"] == plain["counterweights"]
+    assert post_workbook(workbook(request_sheets(body))).json()["counterweights"] == plain["counterweights"]
     sent = post(OPTIMIZE, json.dumps(body), Accept=f"application/json;q=0.5, {XLSX}")
     assert sent.headers["content-type"] == XLSX
     assert len(workbook_sheets(sent.content)["counterweights"]) == 1 + len(plain["counterweights"])
@@ -80,7 +80,7 @@ def test_who_does_not_ask_for_a_workbook_gets_json(post: Callable[..., Any], bod
 def test_what_is_wrong_is_said_with_its_cell(post_workbook: Callable[..., Any], body: dict[str, Any]) -> None:
     body["machine"]["webs"][1]["max_mass_kg"] = -3
     del body["machine"]["throws"][0]["crank_radius_m"]
-    sent = post_workbook(workbook(written(body)))
+    sent = post_workbook(workbook(request_sheets(body)))
     assert sent.status_code == 422
     told = {one["pointer"]: one["message"] for one in sent.json()["errors"]}
     assert told["/machine/webs/1/max_mass_kg"].startswith("webs!")
@@ -89,7 +89,7 @@ def test_what_is_wrong_is_said_with_its_cell(post_workbook: Callable[..., Any], 
 
 def test_what_cannot_be_computed_is_said_with_its_cell(post_workbook: Callable[..., Any], body: dict[str, Any]) -> None:
     del body["machine"]["flywheel"]
-    sent = post_workbook(workbook(written({**body, "outputs": ["flywheel"]})))
+    sent = post_workbook(workbook(request_sheets({**body, "outputs": ["flywheel"]})))
     assert sent.status_code == 422
     assert sent.json()["errors"][0]["message"].startswith("machine: machine.")
 
@@ -101,7 +101,9 @@ def test_sheets_that_say_nothing_of_a_machine(post_workbook: Callable[..., Any])
 
 
 def test_a_formula_is_never_computed(post_workbook: Callable[..., Any], body: dict[str, Any]) -> None:
-    book = openpyxl.load_workbook(io.BytesIO(workbook(written({**body, "machine": {**body["machine"], "name": "="}}))))
+    book = openpyxl.load_workbook(
+        io.BytesIO(workbook(request_sheets({**body, "machine": {**body["machine"], "name": "="}})))
+    )
     book["webs"]["B2"] = "=1+1"
     out = io.BytesIO()
     book.save(out)
@@ -112,7 +114,7 @@ def test_a_formula_is_never_computed(post_workbook: Callable[..., Any], body: di
 
 def test_a_text_that_begins_like_a_formula_stays_text(post_workbook: Callable[..., Any], body: dict[str, Any]) -> None:
     body["machine"]["webs"][0]["name"] = '=HYPERLINK("http://127.0.0.1")'
-    sent = post_workbook(workbook(written(body)), Accept=XLSX)
+    sent = post_workbook(workbook(request_sheets(body)), Accept=XLSX)
     assert sent.status_code == 200
     book = openpyxl.load_workbook(io.BytesIO(sent.content))
     cells = [cell for sheet in book for line in sheet.iter_rows() for cell in line]
@@ -155,7 +157,7 @@ def entities(content: bytes) -> bytes:
 def test_what_is_no_workbook_is_refused(
     post_workbook: Callable[..., Any], body: dict[str, Any], change: Callable[[bytes], bytes], said: str
 ) -> None:
-    sent = post_workbook(change(workbook(written(body))))
+    sent = post_workbook(change(workbook(request_sheets(body))))
     assert sent.status_code == 400
     assert sent.json()["type"] == "/problems/unreadable-body"
     assert said in sent.json()["detail"]
@@ -168,7 +170,7 @@ def test_a_workbook_that_is_too_large_is_not_read(post_workbook: Callable[..., A
 def test_workbooks_go_where_they_are_understood(
     client: TestClient, post_workbook: Callable[..., Any], body: dict[str, Any]
 ) -> None:
-    content = workbook(written(body))
+    content = workbook(request_sheets(body))
     for path in ("/v1/analyze", "/v1/pareto", "/v1/sweeps"):
         assert post_workbook(content, path).status_code == 415, path
     assert post_workbook(content, Content_Encoding="gzip").status_code == 415
@@ -178,7 +180,7 @@ def test_workbooks_go_where_they_are_understood(
 
 
 def test_a_workbook_is_answered_at_once(post_workbook: Callable[..., Any], body: dict[str, Any]) -> None:
-    assert post_workbook(workbook(written(body)), Prefer="respond-async").status_code == 200
+    assert post_workbook(workbook(request_sheets(body)), Prefer="respond-async").status_code == 200
 
 
 def test_there_is_a_template_of_every_example_and_of_nothing_else(client: TestClient) -> None:
@@ -207,7 +209,7 @@ def test_the_request_in_a_workbook_is_the_one_that_was_written(
 def test_the_sheets_of_an_answer_are_no_part_of_the_request(
     post_workbook: Callable[..., Any], body: dict[str, Any]
 ) -> None:
-    sent = workbook(written(body))
+    sent = workbook(request_sheets(body))
     answered = post_workbook(sent, Accept=XLSX).content
     assert {"answer", "counterweights"} <= workbook_sheets(answered).keys()
     assert post_workbook(answered, CONVERT).json() == post_workbook(sent, CONVERT).json()
@@ -216,13 +218,13 @@ def test_the_sheets_of_an_answer_are_no_part_of_the_request(
 def test_a_quantity_is_read_in_the_unit_of_its_field(post_workbook: Callable[..., Any], body: dict[str, Any]) -> None:
     body["machine"]["speed_rpm"] = "12 Hz"
     # analytic: 12 turns a second
-    assert post_workbook(workbook(written(body)), CONVERT).json()["machine"]["speed_rpm"] == pytest.approx(720)
+    assert post_workbook(workbook(request_sheets(body)), CONVERT).json()["machine"]["speed_rpm"] == pytest.approx(720)
 
 
 def test_what_is_wrong_is_said_by_its_cell_where_nothing_is_solved(
     client: TestClient, post_workbook: Callable[..., Any], body: dict[str, Any]
 ) -> None:
-    sheets = written(body)
+    sheets = request_sheets(body)
     column = sheets["throws"][0].index("crank_radius_m")
     sheets["throws"][1][column] = "long"
     refused = post_workbook(workbook(sheets), CONVERT)
@@ -231,10 +233,10 @@ def test_what_is_wrong_is_said_by_its_cell_where_nothing_is_solved(
     assert error["pointer"] == "/machine/throws/0/crank_radius_m"
     assert error["message"].startswith(f"throws!{get_column_letter(column + 1)}2: ")
     assert post_workbook(b"no workbook", CONVERT).status_code == 400
-    bomb = with_part(workbook(written(body)), "xl/worksheets/sheet1.xml", many_lines)
+    bomb = with_part(workbook(request_sheets(body)), "xl/worksheets/sheet1.xml", many_lines)
     assert post_workbook(bomb, CONVERT).status_code == 400
     assert client.post(CONVERT, content="x", headers={"Content-Type": "text/plain"}).status_code == 415
-    assert post_workbook(workbook(written(body)), CONVERT, Accept="text/html").status_code == 406
+    assert post_workbook(workbook(request_sheets(body)), CONVERT, Accept="text/html").status_code == 406
 
 
 def test_half_of_a_surrogate_pair_in_a_refusal_is_no_fault(post_workbook: Callable[..., Any]) -> None:

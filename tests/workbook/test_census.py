@@ -11,7 +11,7 @@ from service.workbook import files
 from service.workbook.body import read_workbook
 from service.workbook.census import MOST_CELLS, MOST_OF_A_PART, UnreadableWorkbook, census
 from service.workbook.files import workbook, workbook_sheets
-from service.workbook.sheets import Misplaced, Sheets, read, written
+from service.workbook.sheets import Misplaced, Sheets, read, request_sheets
 
 BODY = bodies("")["2d12"]
 _NAMES = b'<worksheet xmlns="http://schemas.openxmlformats.org/spreadsheetml/2006/main"><sheetData>'
@@ -81,12 +81,12 @@ def test_it_is_refused_before_the_library_opens_it(
 
     monkeypatch.setattr(files, "load_workbook", opened)
     with pytest.raises(UnreadableWorkbook, match=told):
-        workbook_sheets(changed(written(BODY), change))
+        workbook_sheets(changed(request_sheets(BODY), change))
 
 
 def test_forty_sheets_with_a_far_cell_each() -> None:
     """The file that took 25 s and a gigabyte: no far cell of a sheet that is not ours is reached."""
-    sheets: Sheets = {**written(BODY), **{f"note {k}": [["a"]] for k in range(40)}}
+    sheets: Sheets = {**request_sheets(BODY), **{f"note {k}": [["a"]] for k in range(40)}}
 
     def far(parts: dict[str, bytes]) -> None:
         for name in parts:
@@ -104,7 +104,7 @@ def test_a_sheet_that_says_it_is_large_is_read_as_it_is() -> None:
                 start, _, rest = parts[name].partition(b"<dimension ")
                 parts[name] = start + b'<dimension ref="A1:XFD1048576"/>' + rest.partition(b"/>")[2]
 
-    assert read_workbook(changed(written(BODY), large)).body == BODY
+    assert read_workbook(changed(request_sheets(BODY), large)).body == BODY
 
 
 def test_cells_of_sheets_that_are_not_asked_for_are_not_read(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -112,13 +112,15 @@ def test_cells_of_sheets_that_are_not_asked_for_are_not_read(monkeypatch: pytest
     real = files._lines
     monkeypatch.setattr(files, "_lines", lambda sheet, wrong: [title.append(sheet.title), *real(sheet, wrong)][1:])
     with pytest.raises(Misplaced, match="note: no sheet of a machine"):
-        read(workbook_sheets(workbook({**written(BODY), "note": [["a"]], "answer": [["b"]]}), names=("machine",)))
+        read(
+            workbook_sheets(workbook({**request_sheets(BODY), "note": [["a"]], "answer": [["b"]]}), names=("machine",))
+        )
     assert title == ["machine"]
 
 
 @pytest.mark.parametrize("text", ["[" * 30_000, '{"a":' * 6_000, "[" + "1" * 5_000])
 def test_json_of_any_depth_in_a_cell_is_refused_by_the_cell(text: str) -> None:
-    sheets = written(BODY)
+    sheets = request_sheets(BODY)
     sheets["machine"].append(["machine.note", text])
     with pytest.raises(Misplaced, match=rf"machine!B{len(sheets['machine'])}: no JSON"):
         read(workbook_sheets(workbook(sheets)))
@@ -130,13 +132,13 @@ def test_the_largest_machine_is_within_the_counts() -> None:
     web = {**machine["webs"][0], "sector": {"centre_deg": 1, "half_angle_deg": 2}}
     webs = [{**web, "name": f"{k}"} for k in range(500)]
     largest = {**BODY, "machine": {**machine, "throws": throws, "webs": webs}}
-    assert read_workbook(workbook(written(largest))).body == largest
-    assert census(workbook(written(largest)), 20_000_000).cells < 0.75 * MOST_CELLS
+    assert read_workbook(workbook(request_sheets(largest))).body == largest
+    assert census(workbook(request_sheets(largest)), 20_000_000).cells < 0.75 * MOST_CELLS
 
 
 def test_the_json_of_all_cells_together_is_bounded() -> None:
     """One text that ten thousand cells name would be parsed ten thousand times."""
-    sheets = written(BODY)
+    sheets = request_sheets(BODY)
     sheets["machine"] += [[f"machine.note{k}", "[" + "1," * 10_000 + "1]"] for k in range(200)]
     with pytest.raises(Misplaced, match="the cells up to here hold more than"):
         read(workbook_sheets(workbook(sheets)))

@@ -11,7 +11,7 @@ import pytest
 
 from service.documents.examples import bodies
 from service.workbook.files import UnreadableWorkbook, workbook, workbook_sheets
-from service.workbook.sheets import Misplaced, written
+from service.workbook.sheets import Misplaced, request_sheets
 
 
 def saved(**cells: object) -> bytes:
@@ -79,7 +79,7 @@ def test_entities_are_not_expanded() -> None:
 
 
 def test_broken_files_are_refused_in_words() -> None:
-    content, dice = workbook(written(bodies()["2d12"])), random.Random(1)
+    content, dice = workbook(request_sheets(bodies()["2d12"])), random.Random(1)
     for _ in range(60):
         broken = bytearray(content)
         for _ in range(dice.randrange(1, 20)):

@@ -16,7 +16,7 @@ from schemas.request.requests import OptimizeRequest
 from service.documents.examples import bodies
 from service.documents.template import EMPTY, template
 from service.workbook.files import workbook, workbook_sheets
-from service.workbook.sheets import Misplaced, Sheets, read, written
+from service.workbook.sheets import Misplaced, Sheets, read, request_sheets
 
 TEXTS = st.text(st.characters(min_codepoint=32, max_codepoint=0x2FFF, exclude_categories=("Cs", "Cc")), min_size=1)
 LEAVES = st.one_of(st.none(), st.booleans(), st.integers(-(10**6), 10**6), TEXTS)
@@ -25,7 +25,7 @@ LEAVES = st.one_of(st.none(), st.booleans(), st.integers(-(10**6), 10**6), TEXTS
 @pytest.mark.parametrize("name", bodies())
 def test_every_example_comes_back(name: str) -> None:
     body = bodies()[name]
-    assert read(workbook_sheets(workbook(written(body)))).body == body
+    assert read(workbook_sheets(workbook(request_sheets(body)))).body == body
 
 
 @given(st.dictionaries(st.sampled_from(["a", "b", "c"]), st.one_of(LEAVES, st.lists(LEAVES), st.just({}))))
@@ -33,12 +33,12 @@ def test_any_value_comes_back(objective: dict[str, Any]) -> None:
     body = {"machine": {"throws": [{"name": "x", "rows": []}]}, "objective": objective}
     # a throw without rows has no line among the rows; what is empty is said where it stands
     expected = {"machine": {"throws": [{"name": "x"}]}, "objective": objective}
-    assert read(written(body)).body == expected
+    assert read(request_sheets(body)).body == expected
 
 
 def test_text_that_looks_like_a_formula_stays_text() -> None:
     body = {"machine": {"name": "=1+1", "webs": [{"name": "@x"}, {"name": "-y"}]}}
-    content = workbook(written(body))
+    content = workbook(request_sheets(body))
     sheet = openpyxl.load_workbook(io.BytesIO(content))["webs"]
     assert [cell.data_type for cell in sheet["A"]] == ["s", "s", "s"]
     assert read(workbook_sheets(content)).body == body
@@ -50,7 +50,7 @@ def test_names_that_a_spreadsheet_made_numbers_of() -> None:
 
 
 def test_where_a_field_stands_or_is_missing() -> None:
-    found = read(written(bodies()["2d12"]))
+    found = read(request_sheets(bodies()["2d12"]))
 
     def where(*path: str | int) -> str:
         return found.where(FieldProblem(path, ""))
@@ -97,7 +97,7 @@ def test_what_says_nothing_of_a_machine_is_named(sheets: Sheets, said: str) -> N
 
 def test_the_example_of_plates_comes_back() -> None:
     body = json.loads(Path("examples/drawings/2d12-plates.json").read_text())
-    assert read(workbook_sheets(workbook(written(body)))).body == body
+    assert read(workbook_sheets(workbook(request_sheets(body)))).body == body
 
 
 @pytest.mark.parametrize(
@@ -120,7 +120,7 @@ def test_rows_stand_on_throws_by_name(names: tuple[str | None, ...], cells: tupl
 
 
 def test_rows_of_a_machine_name_their_throws() -> None:
-    rows = written(bodies()["2d12"])["rows"]
+    rows = request_sheets(bodies()["2d12"])["rows"]
     names = [throw["name"] for throw in bodies()["2d12"]["machine"]["throws"]]
     assert [line[rows[0].index("throw")] for line in rows[1:]] == names
 

@@ -60,9 +60,9 @@ def frame_of(frame: ShaftFrame) -> Frame:
     return Frame(np.array(frame.origin_m, dtype=float), _across(z / np.linalg.norm(z), x))
 
 
-def lean(direction: Real, other: Real) -> Real:
+def lean(direction: Real, reference: Real) -> Real:
     """Sine of the angle between unit directions (..., 3), whatever their senses."""
-    return np.linalg.norm(np.cross(direction, other), axis=-1)
+    return np.linalg.norm(np.cross(direction, reference), axis=-1)
 
 
 def parallel(cylinders: Cylinders, tolerance: float) -> float:
@@ -117,9 +117,9 @@ def _span(cylinders: Cylinders, group: Numbers) -> float:
 def _leaning(cylinders: Cylinders, group: Numbers, area: float, tolerance: float) -> Iterator[FieldProblem]:
     """Round faces about another direction, where there is much of them."""
     sine = lean(cylinders.direction, cylinders.direction[group[0]])
-    other = (sine > parallel(cylinders, tolerance)) & (cylinders.angle_deg >= _ROUND_DEG)
-    if np.sum(cylinders.area[other]) > _ANOTHER * area:
-        worst = int(np.argmax(np.where(other, cylinders.area, -1.0)))
+    oblique = (sine > parallel(cylinders, tolerance)) & (cylinders.angle_deg >= _ROUND_DEG)
+    if np.sum(cylinders.area[oblique]) > _ANOTHER * area:
+        worst = int(np.argmax(np.where(oblique, cylinders.area, -1.0)))
         angle = float(np.rad2deg(np.arcsin(min(1.0, sine[worst]))))
         message = f"leans by {angle:.3g} degrees against the axis of the other faces: list the faces of one shaft"
         yield FieldProblem(("faces", int(cylinders.number[worst]), "axis"), message)

@@ -61,7 +61,7 @@ class Cylinders:
         """Both ends of every axis (n, 2, 3)."""
         return self.point[:, None] + self.ends[..., None] * self.direction[:, None]
 
-    def seen_from(self, frame: Frame) -> Self:
+    def in_frame(self, frame: Frame) -> Self:
         """The same in a frame."""
         return replace(
             self,
@@ -70,17 +70,17 @@ class Cylinders:
             points=tuple(frame.points(point) for point in self.points),
         )
 
-    def subset(self, which: NDArray[np.bool_]) -> Self:
+    def subset(self, mask: NDArray[np.bool_]) -> Self:
         """Some of them."""
         return replace(
             self,
-            number=self.number[which],
-            point=self.point[which],
-            direction=self.direction[which],
-            radius=self.radius[which],
-            ends=self.ends[which],
-            angle_deg=self.angle_deg[which],
-            points=tuple(point for point, taken in zip(self.points, which, strict=True) if taken),
+            number=self.number[mask],
+            point=self.point[mask],
+            direction=self.direction[mask],
+            radius=self.radius[mask],
+            ends=self.ends[mask],
+            angle_deg=self.angle_deg[mask],
+            points=tuple(point for point, keep in zip(self.points, mask, strict=True) if keep),
         )
 
 
@@ -94,7 +94,7 @@ class Planes:
     area: Real
     points: tuple[Real, ...]
 
-    def seen_from(self, frame: Frame) -> Self:
+    def in_frame(self, frame: Frame) -> Self:
         """The same in a frame."""
         return replace(
             self,
@@ -132,7 +132,7 @@ def planes_of(request: ShaftRequest) -> Planes:
     )
 
 
-def other_points(request: ShaftRequest) -> Real:
+def freeform_points(request: ShaftRequest) -> Real:
     """Points (n, 3) of all faces that are neither round nor plane."""
     return _triples([point for face in request.faces if isinstance(face, OtherFace) for point in face.points_m])
 

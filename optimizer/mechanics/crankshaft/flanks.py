@@ -60,10 +60,10 @@ class Flanks:
             return None
         down, of_down = self._levels(inside & (self.sense < 0))
         up, of_up = self._levels(inside & (self.sense > 0))
-        both = np.where(up - down[:, None] > self.tolerance, of_down[:, None] + of_up, -1.0)
-        if not both.size or np.max(both) < 0:
+        pair_area = np.where(up - down[:, None] > self.tolerance, of_down[:, None] + of_up, -1.0)
+        if not pair_area.size or np.max(pair_area) < 0:
             return None
-        first, last = np.unravel_index(int(np.argmax(both)), both.shape)
+        first, last = np.unravel_index(int(np.argmax(pair_area)), pair_area.shape)
         return float(down[first]), float(up[last])
 
     def cap(self, centre: complex, radius: float, height: float, sense: int) -> bool:
@@ -88,9 +88,9 @@ class Flanks:
         worst = inside[np.argmax(angle[inside])]
         return int(number[worst]), float(angle[worst])
 
-    def _levels(self, which: NDArray[np.bool_]) -> tuple[Real, Real]:
+    def _levels(self, mask: NDArray[np.bool_]) -> tuple[Real, Real]:
         """Heights of faces, those at one height once, and the area at each."""
-        z, area = self.z[which], self.area[which]
+        z, area = self.z[mask], self.area[mask]
         order = np.argsort(z, kind="stable")
         z, area = z[order], area[order]
         starts = np.flatnonzero(np.diff(z, prepend=-np.inf) > self.tolerance)

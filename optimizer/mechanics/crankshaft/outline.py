@@ -40,8 +40,8 @@ class Arc:
         if opposite is not None:
             share = -(self.centre * opposite.conjugate()).real / self.radius
             if abs(share) <= 1.0:
-                turned = float(np.arccos(share))
-                angles += [float(np.angle(opposite)) + sign * turned for sign in (-1.0, 1.0)]
+                offset = float(np.arccos(share))
+                angles += [float(np.angle(opposite)) + sign * offset for sign in (-1.0, 1.0)]
         yield from (self.at(angle) for angle in angles if self.holds(angle))
 
 
@@ -69,17 +69,17 @@ class Outline:
     def _extremes(self, opposite: complex | None) -> Iterator[complex]:
         for arc in self.arcs:
             yield from arc.extremes(opposite)
-        for corner, other in self.sides:
+        for corner, end in self.sides:
             yield corner
-            yield other
+            yield end
             if opposite is not None:
-                a, b = ((point * opposite.conjugate()).real for point in (corner, other))
+                a, b = ((point * opposite.conjugate()).real for point in (corner, end))
                 if a * b < 0.0:
-                    yield corner + (other - corner) * (a / (a - b))
+                    yield corner + (end - corner) * (a / (a - b))
 
 
 def outline(
-    cylinders: Cylinders, planes: Planes, others: Real, low: float, high: float, tolerance: float
+    cylinders: Cylinders, planes: Planes, points_beside: Real, low: float, high: float, tolerance: float
 ) -> Outline | None:
     """What bounds a web between two heights; None where the points of a face are missing, or nothing bounds it."""
     arcs: list[Arc] = []
@@ -99,7 +99,7 @@ def outline(
             flat = points[:, 0] + 1j * points[:, 1]
             along = (flat * complex(-planes.normal[n, 1], planes.normal[n, 0]).conjugate()).real
             sides.append((complex(flat[np.argmin(along)]), complex(flat[np.argmax(along)])))
-    inside = others[(others[:, 2] > low + tolerance) & (others[:, 2] < high - tolerance)]
+    inside = points_beside[(points_beside[:, 2] > low + tolerance) & (points_beside[:, 2] < high - tolerance)]
     sides += [(point, point) for point in (complex(x, y) for x, y, _ in inside)]
     return Outline(tuple(arcs), tuple(sides)) if arcs or sides else None
 

@@ -22,7 +22,7 @@ class Sides:
 
     cylinders: Cylinders
     planes: Planes
-    others: Real
+    points_beside: Real
 
 
 @record(frozen=True)
@@ -55,10 +55,10 @@ def plates(chain: Sequence[Stretch], flanks: Flanks, sides: Sides, tolerance: fl
     """The webs between neighbours of a chain."""
     free, webs, doubts = list(chain), [], []
     for n in range(len(chain) - 1):
-        stretch, other = chain[n : n + 2]
+        stretch, neighbour = chain[n : n + 2]
         pins = tuple(k for k in (n, n + 1) if not chain[k].journal)
-        material = _material(stretch, other, flanks) if pins else flanks.between(stretch.high, other.low)
-        air = _air(stretch, other, material, flanks, tolerance)
+        material = _material(stretch, neighbour, flanks) if pins else flanks.between(stretch.high, neighbour.low)
+        air = _air(stretch, neighbour, material, flanks, tolerance)
         if air is not None:
             message = f"{air * 1e3:.4g} mm of air between it and what follows along the shaft: not one shaft there"
             doubts.append(doubt("air", stretch.faces[-1], message, serious=True))
@@ -68,11 +68,11 @@ def plates(chain: Sequence[Stretch], flanks: Flanks, sides: Sides, tolerance: fl
             low, high = material
             free[n] = replace(free[n], high=min(free[n].high, max(low, free[n].low)))
             free[n + 1] = replace(free[n + 1], low=max(free[n + 1].low, min(high, free[n + 1].high)))
-            plate = _measured(chain, pins, low, high, sides, flanks, tolerance)
+            plate = _plate(chain, pins, low, high, sides, flanks, tolerance)
             webs.append(plate)
             doubts += _doubts_about(plate, stretch)
         else:
-            doubts += _without_flanks(stretch, other, flanks, tolerance)
+            doubts += _without_flanks(stretch, neighbour, flanks, tolerance)
     return Plates(tuple(webs), tuple(free), tuple(doubts))
 
 
@@ -98,7 +98,7 @@ def _air(
     return worst if worst > 10 * tolerance else None
 
 
-def _measured(
+def _plate(
     chain: Sequence[Stretch],
     pins: tuple[int, ...],
     low: float,
@@ -107,7 +107,7 @@ def _measured(
     flanks: Flanks,
     tolerance: float,
 ) -> Plate:
-    bounds = outline(sides.cylinders, sides.planes, sides.others, low, high, tolerance)
+    bounds = outline(sides.cylinders, sides.planes, sides.points_beside, low, high, tolerance)
     faces = flanks.faces(low, high)
     if bounds is None:
         return Plate(low, high, pins, None, None, faces)

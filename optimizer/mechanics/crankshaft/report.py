@@ -121,9 +121,9 @@ def _bearings(chain: Sequence[Stretch]) -> Iterator[tuple[int, list[Doubt]]]:
         stretch = [n for n in group if chain[n].length > 0]
         if journal and stretch:
             best = max(stretch, key=lambda n: chain[n].length)
-            others = [n for n in stretch if n != best and chain[n].length > _AS_LONG * chain[best].length]
+            rivals = [n for n in stretch if n != best and chain[n].length > _AS_LONG * chain[best].length]
             message = "nearly as long as the longest journal beside it, which is taken for the bearing"
-            yield best, [doubt("bearing", chain[n].faces[0], message) for n in others]
+            yield best, [doubt("bearing", chain[n].faces[0], message) for n in rivals]
 
 
 def _bearing(name: str, journal: Stretch) -> ShaftBearing:

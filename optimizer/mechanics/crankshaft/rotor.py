@@ -53,8 +53,8 @@ def rotor_of(bodies: Sequence[Body], frame: Frame, ends: tuple[float, float] | N
     mass = np.array([body.mass_kg for body in bodies])
     centre = frame.points(np.array([body.centre_m for body in bodies], dtype=float))
     second = np.stack([_second_moments(body) for body in bodies])
-    seen = frame.across @ second @ frame.across.T
-    products = np.einsum("n,ni,nj->ij", mass, centre, centre) + np.sum(seen, axis=0)
+    in_frame = frame.across @ second @ frame.across.T
+    products = np.einsum("n,ni,nj->ij", mass, centre, centre) + np.sum(in_frame, axis=0)
     return RotorMoments(float(np.sum(mass)), mass @ centre, complex(products[0, 2], products[1, 2]))
 
 

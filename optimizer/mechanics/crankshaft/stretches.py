@@ -68,7 +68,7 @@ def stretches(cylinders: Cylinders, flanks: Flanks, tolerance: float) -> Stretch
     OutOfRange
         without a crank pin, or with a second shaft.
     """
-    candidates = [stretch for stretch in _joined(cylinders, tolerance) if stretch.angle_deg >= _MOST_DEG]
+    candidates = [stretch for stretch in _cylinder_stretches(cylinders, tolerance) if stretch.angle_deg >= _MOST_DEG]
     doubts = [
         doubt(
             "interrupted",
@@ -78,7 +78,7 @@ def stretches(cylinders: Cylinders, flanks: Flanks, tolerance: float) -> Stretch
         for stretch in candidates
         if stretch.angle_deg < _WHOLE_DEG
     ]
-    candidates, more = _without_others(candidates, tolerance)
+    candidates, more = _shaft_members(candidates, tolerance)
     doubts += more
     table = _Table.of(candidates)
     discs = [table.is_disc(n, flanks, tolerance) for n in range(len(candidates))]
@@ -91,10 +91,10 @@ def stretches(cylinders: Cylinders, flanks: Flanks, tolerance: float) -> Stretch
     if all(stretch.journal for stretch in chain):
         message = "there is no crank pin: no full cylinder beside the axis, parallel to it"
         refuse([FieldProblem(("faces",), message)])
-    return Stretches(tuple(_merged(chain, flanks, tolerance)), tuple(doubts))
+    return Stretches(tuple(_pins(chain, flanks, tolerance)), tuple(doubts))
 
 
-def _joined(cylinders: Cylinders, tolerance: float) -> Iterator[Stretch]:
+def _cylinder_stretches(cylinders: Cylinders, tolerance: float) -> Iterator[Stretch]:
     """Faces of one cylinder that is cut lengthways, put together."""
     tips = cylinders.tips[..., 2]
     measures = np.column_stack([cylinders.point[:, :2], cylinders.radius, np.min(tips, axis=-1), np.max(tips, axis=-1)])
@@ -125,7 +125,7 @@ def _clusters(values: Real, tolerance: float) -> Numbers:
     return numbers
 
 
-def _without_others(candidates: Sequence[Stretch], tolerance: float) -> tuple[list[Stretch], list[Doubt]]:
+def _shaft_members(candidates: Sequence[Stretch], tolerance: float) -> tuple[list[Stretch], list[Doubt]]:
     """Without dowels, bolts, and what stands beside the shaft.
 
     Raises
@@ -174,10 +174,10 @@ class _Table:
         """Whether a stretch beside the axis is at the height of a journal, which does not pass through it."""
         if self.journal[n]:
             return False
-        both = np.minimum(self.high, self.high[n]) - np.maximum(self.low, self.low[n])
+        overlap = np.minimum(self.high, self.high[n]) - np.maximum(self.low, self.low[n])
         shorter = np.minimum(self.high - self.low, self.high[n] - self.low[n])
         clear = np.abs(self.centre - self.centre[n]) > self.radius + self.radius[n] + tolerance
-        return bool(np.any(self.journal & clear & (both > _BESIDE * shorter)))
+        return bool(np.any(self.journal & clear & (overlap > _BESIDE * shorter)))
 
     def is_disc(self, n: int, flanks: Flanks, tolerance: float) -> bool:
         """Whether a smaller pin stands on it."""
@@ -195,7 +195,7 @@ class _Table:
         )
 
 
-def _merged(chain: Sequence[Stretch], flanks: Flanks, tolerance: float) -> Iterator[Stretch]:
+def _pins(chain: Sequence[Stretch], flanks: Flanks, tolerance: float) -> Iterator[Stretch]:
     """Neighbours about one line beside the axis are one pin, with grooves and collars, unless a web is between them."""
     before: Stretch | None = None
     for stretch in chain:

@@ -37,8 +37,8 @@ def chamber_values(rows, chambers, values):  # type: ignore[no-untyped-def]
             log = _log_ratio(low, high, closed)
             suction = clear * np.expm1(log / expansion)
             # share of the full volume that compression takes away
-            taken = -np.expm1(-log / compression)
-            discharge, before = stroke * (1.0 - taken) - clear * taken, (stroke + clear) * taken
+            reduction = -np.expm1(-log / compression)
+            discharge, before = stroke * (1.0 - reduction) - clear * reduction, (stroke + clear) * reduction
             if not (closed and suction < stroke and discharge > 0.0):
                 suction, discharge, before = np.nan, np.nan, np.nan
             values[SUCTION, r, c], values[DISCHARGE, r, c] = suction, discharge
@@ -55,9 +55,9 @@ def chamber_values(rows, chambers, values):  # type: ignore[no-untyped-def]
                 values[SUCTION_ANGLE + 2 * cut_off, r, c], values[DISCHARGE_ANGLE + 2 * cut_off, r, c] = opens, closes
             work = 0.0
             if closed:
-                put_in = low * (stroke + clear) * _above_start(log, compression) + (high - low) * discharge
+                input_work = low * (stroke + clear) * _above_start(log, compression) + (high - low) * discharge
                 recovery = low * (clear + suction) * _above_start(log, expansion)
-                work = chambers[0, r, c] * (put_in - recovery)
+                work = chambers[0, r, c] * (input_work - recovery)
             values[WORK, r, c] = work
 
 
@@ -85,13 +85,13 @@ def work_values(angle, displacement, velocity, remaining, rows, own, chambers, t
             gas = 0.0
             for c in range(chambers.shape[2]):
                 head = c % 2 == 0
-                moved, left = displacement[r, t], remaining[r, t]
+                path, left = displacement[r, t], remaining[r, t]
                 # a chamber counts from the dead centre at which it is smallest
                 since = crank if head else (crank + 0.5 * _TURN) % _TURN
-                travel, rest = (moved, left) if head else (left, moved)
+                travel, rest = (path, left) if head else (left, path)
                 opens, delivers = travels[0, r, c], travels[1, r, c]
-                put_in = _gas_work(chambers[:, r, c], stroke, travel, rest, since < 0.5 * _TURN, opens, delivers)
-                gas += put_in - indicated[r, c] * (since / _TURN)
+                input_work = _gas_work(chambers[:, r, c], stroke, travel, rest, since < 0.5 * _TURN, opens, delivers)
+                gas += input_work - indicated[r, c] * (since / _TURN)
             work[r, t] = value + gas
 
 
@@ -156,13 +156,13 @@ def _gas_work(chamber, stroke, travel, rest, growing, opens, delivers):  # type:
     # once it shrinks, what it took while it grew is that of the stroke
     way = travel if growing else stroke
     length = min(np.log1p(way / clear), log / expansion)
-    taken = high * clear * length * _growth((1.0 - expansion) * length) + low * max(way - opens, 0.0)
+    intake = high * clear * length * _growth((1.0 - expansion) * length) + low * max(way - opens, 0.0)
     if growing:
-        return -area * taken
+        return -area * intake
     full = stroke + clear
     length = min(-np.log1p(-rest / full), log / compression)
-    put_in = low * full * length * _growth((compression - 1.0) * length) + high * max(delivers - travel, 0.0)
-    return area * (put_in - taken)
+    input_work = low * full * length * _growth((compression - 1.0) * length) + high * max(delivers - travel, 0.0)
+    return area * (input_work - intake)
 
 
 @inner

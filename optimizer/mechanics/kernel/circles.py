@@ -9,7 +9,7 @@ from optimizer.mechanics.kernel.curves import series_of_curves
 from optimizer.mechanics.kernel.search import search
 from optimizer.numerics.compiling import inner, inner_with_arrays
 from optimizer.numerics.kernel.circle import length
-from optimizer.responses.kernel.motion import moved
+from optimizer.responses.kernel.motion import into_motion
 from optimizer.responses.kernel.outlines import Circles, farthest, nearer, outlines, surround
 from optimizer.responses.kernel.parts import Best, Members
 from optimizer.responses.piecewise_cubics import ROUNDING
@@ -42,55 +42,55 @@ def circles(cubics, members, rows, sums, middle, motion):  # type: ignore[no-unt
     result = Circles(
         centre.copy(), np.empty(count), np.zeros((count, 3), np.int64), np.zeros((count, 3)), np.zeros(count, np.int64)
     )
-    sought, largest = np.empty(count, np.bool_), np.empty(count)
+    mask, largest = np.empty(count, np.bool_), np.empty(count)
     _largest(outline.lower, group, largest)
     for j in range(count):
         result.radius[j] = max(outline.lower[j], 0.0)
-        sought[j] = upper[j] >= largest[group[j]]
-    chosen = _chosen(sought)
+        mask[j] = upper[j] >= largest[group[j]]
+    active = _indices(mask)
     # the first points of a curve are those that hold its outline
     first = np.empty(outline.curve.size, np.bool_)
     for k in range(first.size):
-        first[k] = sought[outline.curve[k]]
+        first[k] = mask[outline.curve[k]]
     of, at, angle = outline.curve[first], outline.at[first], outline.angle[first]
     points = np.empty(0, np.complex128)
-    for _ in range(_MOST_POINTS if chosen.size > 0 else 0):
+    for _ in range(_MOST_POINTS if active.size > 0 else 0):
         # all points that may hold a circle about this centre, not only the farthest
-        which, curve, piece, half, near = farthest(cubics, number, outline, chosen, centre[chosen])
+        owner, curve, piece, half, near = farthest(cubics, number, outline, active, centre[active])
         cubic = _series(rows, sums, middle, motion, curve, piece, near, half, _CUBIC)
-        near = nearer(cubics, curve, piece, near, cubic, centre[which])
+        near = nearer(cubics, curve, piece, near, cubic, centre[owner])
         if points.size == 0:
-            which, piece, near = np.concatenate((of, which)), np.concatenate((at, piece)), np.concatenate((angle, near))
-            curve, of, angle = number[which], of[:0].copy(), angle[:0].copy()
+            owner, piece, near = np.concatenate((of, owner)), np.concatenate((at, piece)), np.concatenate((angle, near))
+            curve, of, angle = number[owner], of[:0].copy(), angle[:0].copy()
         there = _series(rows, sums, middle, motion, curve, piece, near, np.zeros(near.size), _VALUE)[:, 0]
-        of, angle, points = np.concatenate((of, which)), np.concatenate((angle, near)), np.concatenate((points, there))
-        surround(of, points, chosen, result)
-        _keep(result, chosen, centre, radius)
-        peak, value = _peaks(cubics, number, size, tolerance, chosen, centre, rows, sums, middle, motion)
+        of, angle, points = np.concatenate((of, owner)), np.concatenate((angle, near)), np.concatenate((points, there))
+        surround(of, points, active, result)
+        _keep(result, active, centre, radius)
+        peak, value = _peaks(cubics, number, size, tolerance, active, centre, rows, sums, middle, motion)
         _largest(radius, group, largest)
-        beyond = np.zeros(chosen.size, np.bool_)
-        for k in range(chosen.size):
-            j, most = chosen[k], peak.upper[k]
+        beyond = np.zeros(active.size, np.bool_)
+        for k in range(active.size):
+            j, most = active[k], peak.upper[k]
             upper[j] = most
             open_ = most > radius[j] * (1.0 + tolerance) + _ROUNDING * outline.size[j]
             beyond[k] = open_ and most > largest[group[j]]
-        chosen = chosen[beyond]
-        if chosen.size == 0:
+        active = active[beyond]
+        if active.size == 0:
             break
         of, angle, points = (
-            np.concatenate((of, chosen)),
+            np.concatenate((of, active)),
             np.concatenate((angle, peak.angle[beyond])),
             np.concatenate((points, value[beyond])),
         )
-        surround(of, points, chosen, result)
-        _keep(result, chosen, centre, radius)
+        surround(of, points, active, result)
+        _keep(result, active, centre, radius)
     vectors, numbers = np.zeros((count, 4), np.complex128), np.zeros((count, _NUMBERS))
     for j in range(count):
         vectors[j, 0], numbers[j, RADIUS], numbers[j, UPPER] = result.centre[j], result.radius[j], upper[j]
-        numbers[j, COUNT] = result.held[j]
-        for k in range(result.held[j]):
-            held = result.support[j, k]
-            vectors[j, k + 1], numbers[j, ANGLES + k] = points[held], angle[held]
+        numbers[j, COUNT] = result.counts[j]
+        for k in range(result.counts[j]):
+            point = result.support[j, k]
+            vectors[j, k + 1], numbers[j, ANGLES + k] = points[point], angle[point]
             numbers[j, WEIGHTS + k] = result.weights[j, k]
     return vectors, numbers
 
@@ -98,29 +98,29 @@ def circles(cubics, members, rows, sums, middle, motion):  # type: ignore[no-unt
 @inner_with_arrays
 def _series(rows, sums, middle, motion, curve, piece, angle, half, order):  # type: ignore[no-untyped-def]
     """Coefficients (m, 4) of curves in motion about angles (m,), in units of half widths (m,)."""
-    made, _ = series_of_curves(rows, sums, middle, curve + motion.first, piece, angle, np.empty(0), order)
+    series, _ = series_of_curves(rows, sums, middle, curve + motion.first, piece, angle, np.empty(0), order)
     cubic = np.zeros((curve.size, 4), np.complex128)
     for n in range(curve.size):
         wide = 1.0
         for k in range(order + 1):
-            cubic[n, k] = made[n, k] * wide
+            cubic[n, k] = series[n, k] * wide
             wide *= half[n]
-        moved(motion, curve[n], cubic[n], 0.0, angle[n], half[n])
+        into_motion(motion, curve[n], cubic[n], 0.0, angle[n], half[n])
     return cubic
 
 
 @inner_with_arrays
 def _peaks(  # type: ignore[no-untyped-def]
-    cubics, number, size, tolerance, chosen, centre, rows, sums, middle, motion
+    cubics, number, size, tolerance, active, centre, rows, sums, middle, motion
 ):
     """Peaks of some curves (n,) about their centres, and the curves there."""
-    count = chosen.size
+    count = active.size
     members = Members(
-        number[chosen], np.arange(count), -centre[chosen], np.empty(count), np.empty(count), np.zeros(count)
+        number[active], np.arange(count), -centre[active], np.empty(count), np.empty(count), np.zeros(count)
     )
     for k in range(count):
         members.share[k] = 0.5 * tolerance
-        members.rounding[k] = ROUNDING * (length(centre[chosen[k]]) + size[chosen[k]])
+        members.rounding[k] = ROUNDING * (length(centre[active[k]]) + size[active[k]])
     best = Best(
         np.full(count, np.nan),
         np.full(count, -np.inf),
@@ -134,14 +134,14 @@ def _peaks(  # type: ignore[no-untyped-def]
         best.upper[k] += members.rounding[k]
         cubic[:] = 0.0
         cubic[0] = value[k]
-        moved(motion, members.curve[k], cubic, 0.0, best.angle[k], 0.0)
+        into_motion(motion, members.curve[k], cubic, 0.0, best.angle[k], 0.0)
         value[k] = cubic[0]
     return best, value
 
 
 @inner
-def _keep(result, chosen, centre, radius):  # type: ignore[no-untyped-def]
-    for j in chosen:
+def _keep(result, active, centre, radius):  # type: ignore[no-untyped-def]
+    for j in active:
         centre[j], radius[j] = result.centre[j], result.radius[j]
 
 
@@ -154,11 +154,11 @@ def _largest(values, group, out):  # type: ignore[no-untyped-def]
 
 
 @inner_with_arrays
-def _chosen(mask):  # type: ignore[no-untyped-def]
+def _indices(mask):  # type: ignore[no-untyped-def]
     """Numbers of those that are true."""
-    count, chosen = 0, np.empty(mask.size, np.int64)
+    count, indices = 0, np.empty(mask.size, np.int64)
     for j in range(mask.size):
         if mask[j]:
-            chosen[count] = j
+            indices[count] = j
             count += 1
-    return chosen[:count].copy()
+    return indices[:count].copy()

@@ -136,10 +136,10 @@ def _turning(cubic, ends):  # type: ignore[no-untyped-def]
     square = bend * bend - 3.0 * slope * third
     # the larger root first, the smaller by it: nothing cancels
     larger = -(bend + np.copysign(np.sqrt(max(square, 0.0)), bend))
-    root, other = larger / (3.0 * third), slope / larger
+    root, second = larger / (3.0 * third), slope / larger
     root = min(max(root, -1.0), 1.0) if square > 0.0 and np.isfinite(root) else 1.0
-    other = min(max(other, -1.0), 1.0) if square > 0.0 and np.isfinite(other) else 1.0
-    ends[0], ends[1], ends[2], ends[3] = -1.0, min(root, other), max(root, other), 1.0
+    second = min(max(second, -1.0), 1.0) if square > 0.0 and np.isfinite(second) else 1.0
+    ends[0], ends[1], ends[2], ends[3] = -1.0, min(root, second), max(root, second), 1.0
 
 
 @inner

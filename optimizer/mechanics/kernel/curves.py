@@ -42,7 +42,7 @@ class Sums(NamedTuple):
 
 @inner_with_arrays
 def sums_of_rows(  # type: ignore[no-untyped-def]
-    rows, sums, curve, points, bounds, order, design, angles, half, forces, turned
+    rows, sums, curve, points, bounds, order, design, angles, half, forces, kinds
 ):
     """Some curves (m,) over P angles of each of N designs (N,), m / N of each: coefficients (m, P, order + 1) in units
     of half widths (N, P); and beside bounds what these leave out (m, P), and the size (m,) of what is added up.
@@ -54,7 +54,7 @@ def sums_of_rows(  # type: ignore[no-untyped-def]
     bounds : the same bounded, to an order above it or more. Of either there may be none, :data:`NOTHING`.
     order : up to which bounds count, -1 where there are none.
     forces : whether points are forces of one reading instead, (parts, 4, N, R, P), (parts, 1, N, R, P), (N R, P).
-    turned : kinds of the rows, of which the first rows have functions alone, and how many angles later each row does
+    kinds : kinds of the rows, of which the first rows have functions alone, and how many angles later each row does
         what that does, (2, R); (2, 0) where all rows have some.
     """
     count, terms = sums.weights.shape[1], points.middle.shape[1 if forces else 3]
@@ -64,31 +64,31 @@ def sums_of_rows(  # type: ignore[no-untyped-def]
     rest, size = np.empty((curves, angles if order >= 0 else 0)), np.empty(curves if sized else 0)
     # coefficients and at last the bound's middle, each real and imaginary
     last = terms + 1 if order >= 0 else terms
-    with_functions = count if turned.shape[1] == 0 else rows.motion.shape[1]
+    with_functions = count if kinds.shape[1] == 0 else rows.motion.shape[1]
     room = np.empty((2, last, angles)), np.empty((with_functions, angles)), np.empty((2, angles))
-    (wanted, _), everywhere = _wanted(sums, curve), np.empty((0, 0), np.bool_)
-    for reading in range(wanted.size):
-        if not wanted[reading]:
+    (readings, _), everywhere = _readings_of(sums, curve), np.empty((0, 0), np.bool_)
+    for reading in range(readings.size):
+        if not readings[reading]:
             continue
         if forces:
             of_rows = points.middle, points.radius, points.way.reshape((design.size, count, angles))
         else:
             of_rows = series_and_bounds(rows, (points, bounds), design, angles, reading, order, everywhere)
-        _add_rows(sums, curve, reading, of_rows, order, half, turned, room, (cubic, rest, size))
+        _add_rows(sums, curve, reading, of_rows, order, half, kinds, room, (cubic, rest, size))
     return cubic, rest, size
 
 
 @inner_with_arrays
-def series_and_bounds(rows, functions, design, angles, reading, order, counted):  # type: ignore[no-untyped-def]
+def series_and_bounds(rows, functions, design, angles, reading, order, mask):  # type: ignore[no-untyped-def]
     """What rows come to by one reading, of functions at points and bounded to an order; as of :func:`row_series`."""
     points, bounds = functions
-    series, _ = row_series(rows, points, design, angles, reading, points.middle.shape[3], counted)
-    bound, radius = row_series(rows, bounds, design, angles, reading, order + 1, counted)
+    series, _ = row_series(rows, points, design, angles, reading, points.middle.shape[3], mask)
+    bound, radius = row_series(rows, bounds, design, angles, reading, order + 1, mask)
     return series, bound, radius
 
 
 @inner
-def _add_rows(sums, curve, reading, of_rows, order, half, turned, room, results):  # type: ignore[no-untyped-def]
+def _add_rows(sums, curve, reading, of_rows, order, half, kinds, room, results):  # type: ignore[no-untyped-def]
     """Write what the curves (m,) of one reading come to, of what the rows come to; nothing is made here, for to count
     who holds an array takes longer than to use it.
 
@@ -99,7 +99,7 @@ def _add_rows(sums, curve, reading, of_rows, order, half, turned, room, results)
     """
     (series, bound, radius), (total, length, beside), (cubic, rest, size) = of_rows, room, results
     count, (curves, angles, terms) = sums.weights.shape[1], cubic.shape
-    last, bounded, sized, added, off = total.shape[1], order >= 0, size.size > 0, beside[0], beside[1]
+    last, bounded, sized, magnitudes, off = total.shape[1], order >= 0, size.size > 0, beside[0], beside[1]
     parts, of_lengths, share = max(series.shape[0], bound.shape[0]), -1, max(curves // max(half.shape[0], 1), 1)
     for j in range(curves):
         if sums.reading[curve[j]] != reading:
@@ -116,17 +116,17 @@ def _add_rows(sums, curve, reading, of_rows, order, half, turned, room, results)
             if weight == 0.0:
                 continue
             most, kind, cut = abs(weight), r, angles
-            if turned.shape[1] > 0:
-                kind, cut = turned[0, r], angles - turned[1, r]
+            if kinds.shape[1] > 0:
+                kind, cut = kinds[0, r], angles - kinds[1, r]
             if sized:
-                _add(most, length[kind], cut, added)
+                _add(most, length[kind], cut, magnitudes)
             if bounded:
                 _add(most, radius[n, kind], cut, off)
             for k in range(last):
                 component = series[0, k, n, kind] if k < terms else bound[0, 0, n, kind]
                 if parts > 1:
-                    other = series[1, k, n, kind] if k < terms else bound[1, 0, n, kind]
-                    _add_both(weight, component, other, cut, total[0, k], total[1, k])
+                    second_part = series[1, k, n, kind] if k < terms else bound[1, 0, n, kind]
+                    _add_components(weight, component, second_part, cut, total[0, k], total[1, k])
                 else:
                     _add(weight.real, component, cut, total[0, k])
                     if weight.imag != 0.0:
@@ -142,7 +142,7 @@ def _add_rows(sums, curve, reading, of_rows, order, half, turned, room, results)
                 cubic[j, p, 0] += constant
             if bounded:
                 rest[j, p] = (_length(total[0, terms, p], total[1, terms, p]) + off[p]) * wide
-            largest = max(largest, added[p])
+            largest = max(largest, magnitudes[p])
         if sized:
             size[j] = largest + abs(constant)
 
@@ -159,7 +159,7 @@ def _add(weight, numbers, cut, total):  # type: ignore[no-untyped-def]
 
 
 @inner
-def _add_both(weight, first, second, cut, along, across):  # type: ignore[no-untyped-def]
+def _add_components(weight, first, second, cut, along, across):  # type: ignore[no-untyped-def]
     """The same of vectors of which both parts are given."""
     if cut == first.size:
         _add_vectors(weight, first, second, along, across)
@@ -210,26 +210,26 @@ def series_of_curves(rows, sums, middle, curve, piece, angle, half, order):  # t
     cubic, off = np.zeros((count, terms), np.complex128), np.zeros(count if bounded else 0)
     of_design = max(sums.weights.shape[0] // middle.shape[0], 1)
     number, first = _alike(sums.weights, curve, curve // of_design, piece, angle, half)
-    wanted, pressed = _wanted(sums, curve)
+    readings, with_gas = _readings_of(sums, curve)
     count_of_rows = sums.weights.shape[1]
     step = max(1, _AT_ONCE // max(count_of_rows, 1))
     for start in range(0, first.size, step):
         stop = min(start + step, first.size)
         design, centre, within = np.empty(stop - start, np.int64), np.empty(stop - start), np.empty(stop - start)
-        wide, counted = np.empty(stop - start if bounded else 0), np.zeros((count_of_rows, stop - start), np.bool_)
+        wide, mask = np.empty(stop - start if bounded else 0), np.zeros((count_of_rows, stop - start), np.bool_)
         for q in range(stop - start):
             place = first[start + q]
             design[q], centre[q] = curve[place] // of_design, angle[place]
             within[q] = middle[design[q], piece[place]]
             if bounded:
                 wide[q] = half[place]
-        _count(sums, curve, _ANY, number, start, counted)
-        functions = row_functions(rows, Places(design, centre, wide, within), order, pressed, counted)
-        for reading in range(wanted.size):
-            if not wanted[reading]:
+        _count(sums, curve, _ANY, number, start, mask)
+        functions = row_functions(rows, Places(design, centre, wide, within), order, with_gas, mask)
+        for reading in range(readings.size):
+            if not readings[reading]:
                 continue
-            _count(sums, curve, reading, number, start, counted)
-            series, radius = row_series(rows, functions, design, _SINGLE, reading, order + 1, counted)
+            _count(sums, curve, reading, number, start, mask)
+            series, radius = row_series(rows, functions, design, _SINGLE, reading, order + 1, mask)
             _add_places(sums, curve, reading, (series, radius), number, start, stop, (cubic, off))
     if not bounded:
         for n in range(count):
@@ -238,14 +238,14 @@ def series_of_curves(rows, sums, middle, curve, piece, angle, half, order):  # t
 
 
 @inner
-def _count(sums, curve, reading, number, start, counted):  # type: ignore[no-untyped-def]
+def _count(sums, curve, reading, number, start, mask):  # type: ignore[no-untyped-def]
     """Write which rows count at which of some places (R, places), for one reading or all of them."""
-    counted[:] = False
+    mask[:] = False
     for n in range(curve.size):
         q = number[n] - start
-        if q >= 0 and q < counted.shape[1] and (reading < 0 or reading == sums.reading[curve[n]]):
-            for r in range(counted.shape[0]):
-                counted[r, q] = counted[r, q] or sums.weights[curve[n], r] != 0.0
+        if q >= 0 and q < mask.shape[1] and (reading < 0 or reading == sums.reading[curve[n]]):
+            for r in range(mask.shape[0]):
+                mask[r, q] = mask[r, q] or sums.weights[curve[n], r] != 0.0
 
 
 @inner
@@ -283,8 +283,8 @@ def _alike(weights, curve, design, piece, angle, half):  # type: ignore[no-untyp
             place = order[k]
             if kind[place] != row:
                 continue
-            other = last < 0 or kind[last] != row or angle[place] != angle[last] or piece[place] != piece[last]
-            if other or design[place] != design[last] or (half.size > 0 and half[place] != half[last]):
+            differs = last < 0 or kind[last] != row or angle[place] != angle[last] or piece[place] != piece[last]
+            if differs or design[place] != design[last] or (half.size > 0 and half[place] != half[last]):
                 first[different] = place
                 different += 1
             number[place], last = different - 1, place
@@ -321,14 +321,14 @@ def _kind(weights):  # type: ignore[no-untyped-def]
 
 
 @inner_with_arrays
-def _wanted(sums, curve):  # type: ignore[no-untyped-def]
+def _readings_of(sums, curve):  # type: ignore[no-untyped-def]
     """Which readings curves (m,) are sums of, and whether gas is a part of any."""
-    wanted, pressed = np.zeros(_WITHOUT_GAS.size, np.bool_), False
+    readings, with_gas = np.zeros(_WITHOUT_GAS.size, np.bool_), False
     for n in range(curve.size):
         reading = sums.reading[curve[n]]
-        wanted[reading] = True
-        pressed = pressed or not _WITHOUT_GAS[reading]
-    return wanted, pressed
+        readings[reading] = True
+        with_gas = with_gas or not _WITHOUT_GAS[reading]
+    return readings, with_gas
 
 
 @inner

@@ -22,19 +22,19 @@ _AT_ONCE, _MOST = 1_500, 32
 
 
 @inner_with_arrays
-def design_forces(rows, wanted, centre, half, order, pressed):  # type: ignore[no-untyped-def]
+def design_forces(rows, selection, centre, half, order, with_gas):  # type: ignore[no-untyped-def]
     """Coefficients (M, 4, N, R, P) of forces about centres (N, P), the middles (M, 1, N, R, P) of what bounds them to
     an order over half widths (N, P), and the radii of these (K N R, P); as :func:`readings.row_series` makes them.
 
     Parameters
     ----------
-    wanted : which of the readings: K of them with M parts, one after the other.
-    pressed : whether gas is a part of any.
+    selection : which of the readings: K of them with M parts, one after the other.
+    with_gas : whether gas is a part of any.
     """
     (designs, pieces), count = centre.shape, rows.motion.shape[1]
     of_parts, readings = _NONE, _NONE
-    for reading in range(wanted.size):
-        if wanted[reading]:
+    for reading in range(selection.size):
+        if selection[reading]:
             readings += 1
             of_parts += 2 if reading in (ON_SHAFT, ON_FRAME) else 1
     points, bounds = np.empty((of_parts, 4, designs, count, pieces)), np.empty((of_parts, 1, designs, count, pieces))
@@ -43,9 +43,9 @@ def design_forces(rows, wanted, centre, half, order, pressed):  # type: ignore[n
     common_count, mask = _common_rows(rows, designs, common), everywhere
     once = rows.motion.shape[0] == 1 and rows.traces.table.shape[1] == 1 and _equal_pieces(centre, half, 0, designs)
     # rows whose forces of the first design are those of all, and rows that are not read by designs side by side
-    equal, other = common.copy(), common.copy()
+    equal, rest = common.copy(), common.copy()
     if once:
-        common_count, common[:], other[:] = 0, False, False
+        common_count, common[:], rest[:] = 0, False, False
     else:
         equal[:] = False
     every_design, every_place = np.arange(designs), np.arange(designs * pieces)
@@ -58,26 +58,26 @@ def design_forces(rows, wanted, centre, half, order, pressed):  # type: ignore[n
             if common_count > 0:
                 of_rest = np.empty((count, places.size), np.bool_)
                 _mark(common, False, of_rest)
-            middle, around, _ = _functions(rows, places, centre, half, order, pressed, of_rest)
+            middle, around, _ = _functions(rows, places, centre, half, order, with_gas, of_rest)
         # rows that are the same in all designs, over what differs from the first piece of the block
         slot = np.empty((stop - first, pieces), np.int64)
-        some = np.empty(slot.size if common_count > 0 else 0, np.int64)
-        different = _place_list(centre, half, first, some, slot)
-        own = some[:different]
+        storage = np.empty(slot.size if common_count > 0 else 0, np.int64)
+        different = _place_list(centre, half, first, storage, slot)
+        own = storage[:different]
         of_own = np.empty((count, different), np.bool_)
         _mark(common, True, of_own)
         if different > 0:
-            same, beside, design = _functions(rows, own, centre, half, order, pressed, of_own)
+            same, beside, design = _functions(rows, own, centre, half, order, with_gas, of_own)
         if once and first > 0:
-            mask, other = np.empty((count, pieces), np.bool_), equal
+            mask, rest = np.empty((count, pieces), np.bool_), equal
             _mark(equal, False, mask)
         part, k = _NONE, _NONE
-        for reading in range(wanted.size):
-            if not wanted[reading]:
+        for reading in range(selection.size):
+            if not selection[reading]:
                 continue
             if common_count < count:
                 of_rows = series_and_bounds(rows, (middle, around), number, pieces, reading, order, mask)
-                _put(other, of_rows, (points, bounds, radius), part, k, first)
+                _put(rest, of_rows, (points, bounds, radius), part, k, first)
             if different > 0:
                 of_rows = series_and_bounds(rows, (same, beside), design, _SINGLE, reading, order, everywhere)
                 _put_from(common, of_rows, slot, (points, bounds, radius), part, k, first)
@@ -87,12 +87,12 @@ def design_forces(rows, wanted, centre, half, order, pressed):  # type: ignore[n
 
 
 @inner_with_arrays
-def _functions(rows, places, centre, half, order, pressed, counted):  # type: ignore[no-untyped-def]
+def _functions(rows, places, centre, half, order, with_gas, mask):  # type: ignore[no-untyped-def]
     """What forces are made of about the centres of places (m,), and bounded to an order over their half widths."""
     design, about, wide = np.empty(places.size, np.int64), np.empty(places.size), np.empty(places.size)
     _find(places, centre, half, design, about, wide)
-    middle = row_functions(rows, Places(design, about, np.empty(0), about), _CUBIC, pressed, counted)
-    return middle, row_functions(rows, Places(design, about, wide, about), order, pressed, counted), design
+    middle = row_functions(rows, Places(design, about, np.empty(0), about), _CUBIC, with_gas, mask)
+    return middle, row_functions(rows, Places(design, about, wide, about), order, with_gas, mask), design
 
 
 @inner
@@ -149,16 +149,16 @@ def _mark(common, value, mask):  # type: ignore[no-untyped-def]
 
 
 @inner
-def _place_list(centre, half, first, some, slot):  # type: ignore[no-untyped-def]
+def _place_list(centre, half, first, out, slot):  # type: ignore[no-untyped-def]
     """Write the places of a block (m,) that differ from those of its first design, and which of them each is (b, P);
     how many there are. None where there is no room for any."""
     pieces, different = slot.shape[1], 0
-    for n in range(slot.shape[0] if some.size > 0 else 0):
+    for n in range(slot.shape[0] if out.size > 0 else 0):
         for p in range(pieces):
             if n > 0 and centre[first + n, p] == centre[first, p] and half[first + n, p] == half[first, p]:
                 slot[n, p] = slot[0, p]
             else:
-                some[different], slot[n, p] = (first + n) * pieces + p, different
+                out[different], slot[n, p] = (first + n) * pieces + p, different
                 different += 1
     return different
 

@@ -35,7 +35,7 @@ class Reading(NamedTuple):
     half : (N, P) rad.
     order : up to which bounds count.
     angles : P of each design.
-    turned : kinds of the rows, and how many angles later they do what the first of their kind does, (2, R); or (2, 0).
+    kinds : kinds of the rows, and how many angles later they do what the first of their kind does, (2, R); or (2, 0).
     """
 
     curve: np.ndarray
@@ -43,10 +43,10 @@ class Reading(NamedTuple):
     half: Real
     order: int
     angles: int
-    turned: np.ndarray = NO_KINDS
+    kinds: np.ndarray = NO_KINDS
 
 
-class Sought(NamedTuple):
+class Query(NamedTuple):
     """What is sought of curves: peaks as :func:`search` takes them, circles, or where they cross levels (N,)."""
 
     cubics: Cubics
@@ -65,7 +65,7 @@ NO_MEMBERS = Members(_NOWHERE, _NOWHERE, np.zeros(0, complex), _NUMBERS, _NUMBER
 NO_BEST = Best(_NUMBERS, _NUMBERS, _NUMBERS, _NOWHERE, _NOWHERE)
 NO_LEVELS = _NUMBERS
 _NO_CUBICS = Cubics(_PLANE, _PLANE, np.zeros((0, 0, 4), complex), _PLANE)
-NOTHING_SOUGHT = Sought(_NO_CUBICS, NO_MEMBERS, NO_BEST, NO_LEVELS, _PLANE, STILL)
+NO_QUERY = Query(_NO_CUBICS, NO_MEMBERS, NO_BEST, NO_LEVELS, _PLANE, STILL)
 
 
 def over_turn(
@@ -74,11 +74,11 @@ def over_turn(
     sums: Sums = NO_SUMS,
     places: Places = NO_PLACES,
     order: int = 0,
-    pressed: bool = False,
+    with_gas: bool = False,
     reading: Reading = NO_READING,
     points: Functions = NOTHING,
     bounds: Functions = NOTHING,
-    sought: Sought = NOTHING_SOUGHT,
+    query: Query = NO_QUERY,
 ) -> tuple[tuple[Real, Real, Real], Complex, Real, Real]:
     """Functions of the rows; coefficients (m, P, order + 1) of curves, what they leave out (m, P) and their size (m,).
 
@@ -89,22 +89,22 @@ def over_turn(
 
     Parameters
     ----------
-    order, pressed : of functions that are made at places.
+    order, with_gas : of functions that are made at places.
     points, bounds : functions of which curves are sums; where both are made at once the points are those.
     """
-    cubics, members, best, level, middle, motion = sought
+    cubics, members, best, level, middle, motion = query
     # one by one: numba looks through tuples for the types of arrays, which takes longer than all else of a call
     return _over_turn(
-        *(task, order, pressed, rows.exact, reading.order, reading.angles),
+        *(task, order, with_gas, rows.exact, reading.order, reading.angles),
         *(motion.first, motion.unit, motion.sense, motion.scalar),
         *(*rows[:5], *rows.traces, *sums, *places, *reading[:3], *points, *bounds),
-        *(*cubics, *members, *best, level, middle, motion.times, motion.size, reading.turned),
+        *(*cubics, *members, *best, level, middle, motion.times, motion.size, reading.kinds),
     )
 
 
 @kernel
 def _over_turn(  # type: ignore[no-untyped-def]
-    task, order, pressed, exact, bound, angles, moved, unit, sense, scalar, *parts
+    task, order, with_gas, exact, bound, angles, first_curve, unit, sense, scalar, *parts
 ):
     # 0 to 11 rows, to 14 sums, to 18 places, to 21 readings, to 24 points, to 27 bounds, to 31 cubics, to 37 members,
     # to 42 the best, 43 levels, 44 middles, 45 and 46 of the motion, 47 kinds
@@ -113,7 +113,7 @@ def _over_turn(  # type: ignore[no-untyped-def]
     functions = Functions(np.empty((0, 0, 0, 0, 0)), np.empty((0, 0, 0, 0, 0)), np.empty((0, 0)))
     cubic, rest, size = np.empty((0, 0, 0), np.complex128), np.empty((0, 0)), np.empty(0)
     if task in (FUNCTIONS, BOTH):
-        functions = row_functions(rows, places, order, pressed, np.empty((0, 0), np.bool_))
+        functions = row_functions(rows, places, order, with_gas, np.empty((0, 0), np.bool_))
     if task in (SUMS, BOTH, FORCE_SUMS):
         of = functions if task == BOTH else Functions(*points)
         curve, design, half = parts[19:22]
@@ -121,7 +121,7 @@ def _over_turn(  # type: ignore[no-untyped-def]
             rows, sums, curve, of, Functions(*bounds), bound, design, angles, half, task == FORCE_SUMS, parts[47]
         )
     elif task in (PEAKS, CIRCLES):
-        motion = Motion(moved, unit, sense, parts[45], parts[46], scalar)
+        motion = Motion(first_curve, unit, sense, parts[45], parts[46], scalar)
         cubics, members = Cubics(*parts[28:32]), Members(*parts[32:38])
         if task == CIRCLES:
             vectors, rest = circles(cubics, members, rows, sums, parts[44], motion)
@@ -130,7 +130,7 @@ def _over_turn(  # type: ignore[no-untyped-def]
             there = search(cubics, members, Best(*parts[38:43]), rows, sums, parts[44], motion)
             cubic = there.reshape((there.size, 1, 1))
     elif task == FORCES:
-        functions = design_forces(rows, parts[19], parts[44], parts[21], order, pressed)
+        functions = design_forces(rows, parts[19], parts[44], parts[21], order, with_gas)
     elif task == CROSSINGS:
         rest, size = crossings(Cubics(*parts[28:32]), parts[43], rows, sums, parts[44])
     return (functions.middle, functions.radius, functions.way), cubic, rest, size

@@ -37,7 +37,7 @@ _LAM, _SENSE, _INERTIA, _RUBBING = np.array((1, 3, 0, 1))
 
 
 @inner_with_arrays
-def row_series(rows, functions, design, angles, reading, terms, counted):  # type: ignore[no-untyped-def]
+def row_series(rows, functions, design, angles, reading, terms, mask):  # type: ignore[no-untyped-def]
     """The first coefficients of a force of the rows: (2, terms, N, R, P) at points; of enclosures the middles
     (2, 1, N, R, P) and radii (N, R, P) of the last of these; P angles of each of designs (N,).
 
@@ -47,7 +47,7 @@ def row_series(rows, functions, design, angles, reading, terms, counted):  # typ
 
     Parameters
     ----------
-    counted : (R, Q) which rows count at which places: of many side by side where they do not its numbers mean nothing
+    mask : (R, Q) which rows count at which places: of many side by side where they do not its numbers mean nothing
         either. (0, 0) where all count.
     """
     count = functions.middle.shape[0]
@@ -59,7 +59,7 @@ def row_series(rows, functions, design, angles, reading, terms, counted):  # typ
     series, lane = Series(np.zeros(shape), np.zeros(shape), bounded), np.zeros((_AREA + rows.area.shape[2], LANES))
     # of every lane: its place in the result, and its design
     where = np.zeros((3, LANES), np.int64)
-    _add_up(rows, functions, design, angles, reading, (series, lane, where, counted), (middle, radius))
+    _add_up(rows, functions, design, angles, reading, (series, lane, where, mask), (middle, radius))
     return middle, radius
 
 
@@ -67,13 +67,13 @@ def row_series(rows, functions, design, angles, reading, terms, counted):  # typ
 def _add_up(rows, functions, design, angles, reading, room, results):  # type: ignore[no-untyped-def]
     """Write the coefficients of a force and the radii of the last; nothing is made here, for to count who holds an
     array takes longer than to use it."""
-    (series, lane, where, counted), (middle, radius) = room, results
+    (series, lane, where, mask), (middle, radius) = room, results
     (count, places), parts, bounded, own = functions.way.shape, middle.shape[0], series.bounded, where[_DESIGN]
     terms, number, total = series.middle.shape[1], design.size, (series.middle[_TOTAL], series.radius[_TOTAL])
     first = terms - middle.shape[1]
     moves = reading != ROD_AT_REST and reading != GAS
     rubs = moves and reading != ON_FRAME
-    pressed = reading != ROD_WITHOUT_GAS and reading != ON_FRAME and functions.middle.shape[2] > FUNCTIONS
+    with_gas = reading != ROD_WITHOUT_GAS and reading != ON_FRAME and functions.middle.shape[2] > FUNCTIONS
     # by what the force on the piston is multiplied
     factored = reading != PISTON and reading != GAS
     gas = (series.middle[_OF_GAS if factored else _FORCE], series.radius[_OF_GAS if factored else _FORCE])
@@ -82,7 +82,7 @@ def _add_up(rows, functions, design, angles, reading, room, results):  # type: i
     for r in range(count):
         for start in range(0, places, LANES):
             lanes, block, n, at = min(LANES, places - start), start // LANES, start // angles, start % angles
-            if np.isnan(functions.way[r, start]) or (counted.size > 0 and not any_of(counted[r], start, lanes)):
+            if np.isnan(functions.way[r, start]) or (mask.size > 0 and not any_of(mask[r], start, lanes)):
                 continue
             coefficients = functions.middle[r, block]
             of_row = Series(coefficients, functions.radius[r, block] if bounded else coefficients, bounded)
@@ -95,27 +95,27 @@ def _add_up(rows, functions, design, angles, reading, room, results):  # type: i
                 _of_lanes(rows, own, r, alone, lane)
                 last = r * number + n if alone else -1
             for part in range(parts):
-                made, f = of_row, _factor(reading, part)
+                source, f = of_row, _factor(reading, part)
                 if reading == SIDE:
                     _lean(of_row, series, lane)
-                    made, f = series, _FACTOR
-                factor = (made.middle[f], made.radius[f])
-                made, f = of_row, INERTIA
+                    source, f = series, _FACTOR
+                factor = (source.middle[f], source.radius[f])
+                source, f = of_row, INERTIA
                 if factored and moves:
-                    made, f = series, _OF_INERTIA
+                    source, f = series, _OF_INERTIA
                     multiplied(
                         (coefficients[INERTIA], of_row.radius[INERTIA]),
                         factor,
-                        (made.middle[f], made.radius[f]),
+                        (source.middle[f], source.radius[f]),
                         bounded,
                         first,
                     )
-                inertia = (made.middle[f], made.radius[f])
+                inertia = (source.middle[f], source.radius[f])
                 for turn in range(turns):
                     if turns > 1:
                         own[:] = design[turn]
                         _of_lanes(rows, own, r, alone, lane)
-                    if pressed and (turn == 0 or various):
+                    if with_gas and (turn == 0 or various):
                         if part == 0 or (various and turns > 1):
                             _press(of_row, series, lane)
                         if factored:
@@ -123,15 +123,15 @@ def _add_up(rows, functions, design, angles, reading, room, results):  # type: i
                     for p in range(lanes if rubs else 0):
                         lane[_FRICTION, p] = lane[_RUBBED, p] * functions.way[r, start + p]
                     for k in range(first, terms):
-                        if pressed:
+                        if with_gas:
                             copied(gas[0][k], total[0][k])
                             copied(gas[1][k], total[1][k])
                         else:
                             total[0][k, :], total[1][k, :] = 0.0, 0.0
                     if moves:
-                        _added(inertia, lane[_MASS], total, bounded, first)
+                        _add_multiple(inertia, lane[_MASS], total, bounded, first)
                     if rubs and factored:
-                        _added(factor, lane[_FRICTION], total, bounded, first)
+                        _add_multiple(factor, lane[_FRICTION], total, bounded, first)
                     elif rubs and first == 0:
                         for p in range(LANES):
                             total[0][0, p] += lane[_FRICTION, p]
@@ -168,13 +168,13 @@ def _of_lanes(rows, own, r, alone, lane):  # type: ignore[no-untyped-def]
 
 
 @inner
-def _of_designs(values, own, r, which, alone, out):  # type: ignore[no-untyped-def]
+def _of_designs(values, own, r, column, alone, out):  # type: ignore[no-untyped-def]
     """Write a number of a row for the design of each lane, of values (D, R, ...) or of (1, R, ...) for all designs."""
     if alone or values.shape[0] == 1:
-        out[:] = values[own[0] if values.shape[0] > 1 else 0, r, which]
+        out[:] = values[own[0] if values.shape[0] > 1 else 0, r, column]
     else:
         for p in range(LANES):
-            out[p] = values[own[p], r, which]
+            out[p] = values[own[p], r, column]
 
 
 @inner
@@ -208,7 +208,7 @@ def _with_part(first, off, part):  # type: ignore[no-untyped-def]
 
 
 @inner
-def _added(function, factor, total, bounded, first):  # type: ignore[no-untyped-def]
+def _add_multiple(function, factor, total, bounded, first):  # type: ignore[no-untyped-def]
     """Add a function times a factor (LANES,) to another, from the first coefficient that is wanted."""
     (middle, radius), (out, out_off) = function, total
     for k in range(first, out.shape[0]):
@@ -228,7 +228,7 @@ def _press(of_row, series, lane):  # type: ignore[no-untyped-def]
     force = (series.middle[_FORCE], series.radius[_FORCE])
     for c in range(of_row.middle.shape[0] - FUNCTIONS):
         pressure = (of_row.middle[FUNCTIONS + c], of_row.radius[FUNCTIONS + c])
-        _added(pressure, lane[_AREA + c], force, series.bounded, ALL)
+        _add_multiple(pressure, lane[_AREA + c], force, series.bounded, ALL)
 
 
 @inner

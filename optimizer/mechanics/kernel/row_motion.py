@@ -81,10 +81,10 @@ def _ranges(trig):  # type: ignore[no-untyped-def]
 @inner
 def _doubled(trig, cos, sin):  # type: ignore[no-untyped-def]
     """cos and sin of twice the angle in their place."""
-    cosine, other = trig[cos], trig[sin]
+    cosine, sine = trig[cos], trig[sin]
     for p in range(LANES):
-        c, s = cosine[p], other[p]
-        cosine[p], other[p] = (c - s) * (c + s), 2.0 * s * c
+        c, s = cosine[p], sine[p]
+        cosine[p], sine[p] = (c - s) * (c + s), 2.0 * s * c
 
 
 @inner

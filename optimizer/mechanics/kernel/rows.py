@@ -109,17 +109,17 @@ class Functions(NamedTuple):
 
 
 @inner_with_arrays
-def row_functions(rows, places, order, pressed, counted):  # type: ignore[no-untyped-def]
+def row_functions(rows, places, order, with_gas, mask):  # type: ignore[no-untyped-def]
     """What all readings of the rows are made of; without pressures where it is not pressed.
 
     Parameters
     ----------
-    counted : (R, Q) which rows count at which places: of many side by side that do not they are not made. (0, 0) where
+    mask : (R, Q) which rows count at which places: of many side by side that do not they are not made. (0, 0) where
         all count.
     """
     bounded = places.half.size > 0
     count, number = rows.motion.shape[1], places.centre.size
-    chambers = rows.gas.shape[2] if pressed else 0
+    chambers = rows.gas.shape[2] if with_gas else 0
     blocks = (number + LANES - 1) // LANES
     middle = np.empty((count, blocks, FUNCTIONS + chambers, order + 1, LANES))
     radius = np.empty((count, blocks, FUNCTIONS + chambers if bounded else 0, order + 1, LANES))
@@ -130,12 +130,12 @@ def row_functions(rows, places, order, pressed, counted):  # type: ignore[no-unt
     lane[UNIT], lane[ROOT], lane[OVER], lane[OVER_ROOT], lane[OVER_CUBE] = 1.0, 0.5, -1.0, -0.5, -1.5
     room = (cranks, lane, process, np.zeros((8, LANES)), np.zeros(LANES, np.bool_))
     functions = Functions(middle, radius, way)
-    _expand(rows, places, counted, _alike(rows.motion), series, room, functions)
+    _expand(rows, places, mask, _alike(rows.motion), series, room, functions)
     return functions
 
 
 @inner
-def _expand(rows, places, counted, alike, series, room, functions):  # type: ignore[no-untyped-def]
+def _expand(rows, places, mask, alike, series, room, functions):  # type: ignore[no-untyped-def]
     """Write functions of the rows; nothing is made here, for to count who holds an array takes longer than to use it.
 
     Parameters
@@ -153,13 +153,13 @@ def _expand(rows, places, counted, alike, series, room, functions):  # type: ign
             continue
         for block in range(middle.shape[1]):
             first = block * LANES
-            lanes, some = min(LANES, number - first), counted.size == 0
+            lanes, is_any = min(LANES, number - first), mask.size == 0
             for t in range(r, count):
-                if counted.size > 0 and alike[t] == r:
-                    some = some or any_of(counted[t], first, lanes)
+                if mask.size > 0 and alike[t] == r:
+                    is_any = is_any or any_of(mask[t], first, lanes)
                     for p in range(lanes):
                         way[t, first + p] = np.nan
-            if not some:
+            if not is_any:
                 continue
             last = np.int64(-1)
             for p in range(lanes):
@@ -191,7 +191,7 @@ def _expand(rows, places, counted, alike, series, room, functions):  # type: ign
             carry(series, lane)
             travels = np.int64(0)
             for t in range(r, count):
-                if alike[t] != r or (counted.size > 0 and not any_of(counted[t], first, lanes)):
+                if alike[t] != r or (mask.size > 0 and not any_of(mask[t], first, lanes)):
                     continue
                 for p in range(lanes):
                     way[t, first + p] = np.sign(cranks[INSIDE, SINE, p])
@@ -209,11 +209,11 @@ def _expand(rows, places, counted, alike, series, room, functions):  # type: ign
                     else:
                         indicated(series, rows.traces, places, trace, first, lane, out, lanes)
                 for f in range(FUNCTIONS + chambers):
-                    made = f if f < FUNCTIONS else f - FUNCTIONS + PRESSURES
+                    slot = f if f < FUNCTIONS else f - FUNCTIONS + PRESSURES
                     for k in range(terms):
-                        copied(series.middle[made, k], middle[t, block, f, k])
+                        copied(series.middle[slot, k], middle[t, block, f, k])
                         if bounded:
-                            copied(series.radius[made, k], radius[t, block, f, k])
+                            copied(series.radius[slot, k], radius[t, block, f, k])
 
 
 @inner_with_arrays

@@ -4,7 +4,7 @@ import numpy as np
 
 from optimizer.mechanics.kernel.curves import series_of_curves
 from optimizer.numerics.compiling import inner_with_arrays
-from optimizer.responses.kernel.motion import moved
+from optimizer.responses.kernel.motion import into_motion
 from optimizer.responses.kernel.parts import (
     ENOUGH,
     MOST_CUTS,
@@ -45,7 +45,7 @@ def _expand(parts, members, best, rows, sums, middle, motion):  # type: ignore[n
     count, place = parts.member.size, parts.place
     curve, centre, half = members.curve[parts.member] + motion.first, place[:, _CENTRE].copy(), place[:, _HALF].copy()
     cubic, _ = series_of_curves(rows, sums, middle, curve, parts.piece, centre, np.empty(0), _CUBIC)
-    steep, some = np.empty(count, np.int64), 0
+    steep, steep_count = np.empty(count, np.int64), 0
     for n in range(count):
         member, wide = parts.member[n], half[n]
         group = members.group[member]
@@ -53,18 +53,18 @@ def _expand(parts, members, best, rows, sums, middle, motion):  # type: ignore[n
             parts.cubic[n, k] = cubic[n, k] * wide ** float(k)
         place[n, _REST] = place[n, _FOURTH] * wide**4.0
         if place[n, _REST] > ENOUGH * max(members.share[group] * abs(best.lower[group]), members.rounding[group]):
-            steep[some] = n
-            some += 1
-    left, k = steep[:some].copy(), 0
+            steep[steep_count] = n
+            steep_count += 1
+    left, k = steep[:steep_count].copy(), 0
     bound, radius = series_of_curves(
         rows, sums, middle, curve[left], parts.piece[left], centre[left], half[left], _BOUND
     )
     for n in range(count):
         member, closer = parts.member[n], np.inf
-        if k < some and left[k] == n:
+        if k < steep_count and left[k] == n:
             closer = (abs(bound[k, 0]) + radius[k]) * half[n] ** 4.0
             k += 1
-        closer = moved(motion, members.curve[member], parts.cubic[n], closer, centre[n], half[n])
+        closer = into_motion(motion, members.curve[member], parts.cubic[n], closer, centre[n], half[n])
         parts.cubic[n, 0] += members.offset[member]
         place[n, _REST] = min(place[n, _REST], closer)
         place[n, _FOURTH] = place[n, _REST] / half[n] ** 4.0

@@ -47,10 +47,10 @@ def copied(values, out):  # type: ignore[no-untyped-def]
 @inner
 def any_of(marked, first, lanes):  # type: ignore[no-untyped-def]
     """Whether any of so many places is marked (Q,)."""
-    some = False
+    result = False
     for p in range(first, first + lanes):
-        some = some or marked[p]
-    return some
+        result = result or marked[p]
+    return result
 
 
 @inner
@@ -110,13 +110,13 @@ def summed(series, a, b, factor, out):  # type: ignore[no-untyped-def]
     """a + factor b, factors (LANES,); either may be what comes out."""
     middle, radius, bounded = series
     for k in range(middle.shape[1]):
-        addend, other, result = middle[a, k], middle[b, k], middle[out, k]
+        addend, second, result = middle[a, k], middle[b, k], middle[out, k]
         for p in range(LANES):
-            result[p] = addend[p] + factor[p] * other[p]
+            result[p] = addend[p] + factor[p] * second[p]
         if bounded:
-            addend, other, result = radius[a, k], radius[b, k], radius[out, k]
+            addend, second, result = radius[a, k], radius[b, k], radius[out, k]
             for p in range(LANES):
-                result[p] = addend[p] + abs(factor[p]) * other[p]
+                result[p] = addend[p] + abs(factor[p]) * second[p]
 
 
 @inner
@@ -134,21 +134,21 @@ def multiplied(left, right, outcome, bounded, first):  # type: ignore[no-untyped
     for i in range(out.shape[0]):
         factor, factor_off = f[i], f_off[i]
         for k in range(max(i, first), out.shape[0]):
-            other, result = g[k - i], out[k]
+            second, result = g[k - i], out[k]
             if i == 0:
                 for p in range(LANES):
-                    result[p] = factor[p] * other[p]
+                    result[p] = factor[p] * second[p]
             else:
                 for p in range(LANES):
-                    result[p] += factor[p] * other[p]
+                    result[p] += factor[p] * second[p]
             if bounded:
-                other_off, off = g_off[k - i], out_off[k]
+                second_off, off = g_off[k - i], out_off[k]
                 if i == 0:
                     for p in range(LANES):
-                        off[p] = abs(factor[p]) * other_off[p] + factor_off[p] * (abs(other[p]) + other_off[p])
+                        off[p] = abs(factor[p]) * second_off[p] + factor_off[p] * (abs(second[p]) + second_off[p])
                 else:
                     for p in range(LANES):
-                        off[p] += abs(factor[p]) * other_off[p] + factor_off[p] * (abs(other[p]) + other_off[p])
+                        off[p] += abs(factor[p]) * second_off[p] + factor_off[p] * (abs(second[p]) + second_off[p])
 
 
 @inner
@@ -181,14 +181,14 @@ def power(series, a, exponent, out, lanes):  # type: ignore[no-untyped-def]
             for p in range(LANES):
                 off[p] = 0.0
         for i in range(1, k + 1):
-            factor, other = middle[a, i], middle[out, k - i]
+            factor, second = middle[a, i], middle[out, k - i]
             for p in range(LANES):
-                result[p] += (exponent[p] * i - (k - i)) * factor[p] * other[p]
+                result[p] += (exponent[p] * i - (k - i)) * factor[p] * second[p]
             if bounded:
                 # in a loop of its own: of as many arrays as both have together none would be taken several at a time
-                factor_off, other_off = radius[a, i], radius[out, k - i]
+                factor_off, second_off = radius[a, i], radius[out, k - i]
                 for p in range(LANES):
-                    share = abs(factor[p]) * other_off[p] + factor_off[p] * (abs(other[p]) + other_off[p])
+                    share = abs(factor[p]) * second_off[p] + factor_off[p] * (abs(second[p]) + second_off[p])
                     off[p] += abs(exponent[p] * i - (k - i)) * share
         if bounded:
             inverse, wide = middle[middle.shape[0] - 1, 0], radius[middle.shape[0] - 1, 0]

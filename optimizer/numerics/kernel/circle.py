@@ -27,7 +27,12 @@ def smallest(points):  # type: ignore[no-untyped-def]
     support, weights, count = np.zeros(3, np.int64), np.ones(3), _SINGLE
     support[0] = first
     centre, radius = points[first] - middle, 0.0
-    trial, held, of_held, few = np.zeros(4, np.int64), np.zeros(3, np.int64), np.ones(3), np.zeros(4, np.complex128)
+    trial, on_circle, circle_weights, few = (
+        np.zeros(4, np.int64),
+        np.zeros(3, np.int64),
+        np.ones(3),
+        np.zeros(4, np.complex128),
+    )
     while True:
         farthest = _farthest(points, middle, centre, per_extent)
         if abs(points[farthest] - middle - centre) <= radius + slack:
@@ -37,13 +42,13 @@ def smallest(points):  # type: ignore[no-untyped-def]
             trial[k] = support[k]
         for k in range(count + 1):
             few[k] = points[trial[k]] - middle
-        of_few, larger, number = _around(few, count, held, of_held)
+        of_few, larger, number = _around(few, count, on_circle, circle_weights)
         if larger <= radius:
             # what is left is rounding
             break
         centre, radius, count = of_few, larger, number
         for k in range(count):
-            support[k], weights[k] = trial[held[k]], of_held[k]
+            support[k], weights[k] = trial[on_circle[k]], circle_weights[k]
     own, of_own = np.empty(count, np.int64), np.empty(count)
     for k in range(count):
         own[k], of_own[k] = support[k], weights[k]
@@ -73,20 +78,20 @@ def length(vector):  # type: ignore[no-untyped-def]
 
 
 @inner
-def _around(few, last, held, weights):  # type: ignore[no-untyped-def]
+def _around(few, last, on_circle, weights):  # type: ignore[no-untyped-def]
     """The smallest circle around two to four points of which the last is on it: centre, radius, how many hold it.
 
     The largest that is held by its own points, by trying each few with the last one: every one is a floor of the
     smallest around all.
     """
     centre, radius, number = few[last], 0.0, 1
-    held[0], weights[0] = last, 1.0
+    on_circle[0], weights[0] = last, 1.0
     for k in range(last):
         middle = 0.5 * few[k] + 0.5 * few[last]
         size = max(abs(few[k] - middle), abs(few[last] - middle))
         if size > radius:
             centre, radius, number = middle, size, 2
-            held[0], held[1], weights[0], weights[1] = k, last, 0.5, 0.5
+            on_circle[0], on_circle[1], weights[0], weights[1] = k, last, 0.5, 0.5
     for k in range(last):
         for m in range(k + 1, last):
             # barycentric weights of the circumcentre: sin 2A : sin 2B : sin 2C, positive for an acute triangle
@@ -100,7 +105,7 @@ def _around(few, last, held, weights):  # type: ignore[no-untyped-def]
             size = _mean(few[k] - middle, few[m] - middle, few[last] - middle, share, two, three)
             if size > radius:
                 centre, radius, number = middle, size, 3
-                held[0], held[1], held[2] = k, m, last
+                on_circle[0], on_circle[1], on_circle[2] = k, m, last
                 weights[0], weights[1], weights[2] = share, two, three
     return centre, radius, number
 

@@ -24,20 +24,20 @@ def filled(gain, most, budget):  # type: ignore[no-untyped-def]
     """
     number, webs = gain.shape
     masses, price = np.zeros((number, webs)), np.zeros(number)
-    order, other = np.zeros(webs, np.int64), np.zeros(webs, np.int64)
+    order, buffer = np.zeros(webs, np.int64), np.zeros(webs, np.int64)
     for n in range(number):
-        price[n] = fill(gain[n], most[n], budget[n], order, other, masses[n])
+        price[n] = fill(gain[n], most[n], budget[n], order, buffer, masses[n])
     return masses, price
 
 
 @inner
-def fill(gain, most, budget, order, other, masses):  # type: ignore[no-untyped-def]
+def fill(gain, most, budget, order, buffer, masses):  # type: ignore[no-untyped-def]
     """The same of one program: its masses (K,), and the price. Of places (K,) two arrays to be written to."""
     if budget == np.inf:
         for k in range(gain.size):
             masses[k] = most[k]
         return 0.0
-    _in_falling_order(gain, order, other)
+    _in_falling_order(gain, order, buffer)
     spent, price = 0.0, 0.0
     for k in order:
         left = max(budget - spent, 0.0)
@@ -49,7 +49,7 @@ def fill(gain, most, budget, order, other, masses):  # type: ignore[no-untyped-d
 
 
 @inner
-def _in_falling_order(values, order, other):  # type: ignore[no-untyped-def]
+def _in_falling_order(values, order, buffer):  # type: ignore[no-untyped-def]
     """Places (K,) of values in falling order, of equal ones the first first: sorted runs, merged two by two."""
     count = values.size
     for k in range(count):
@@ -61,9 +61,9 @@ def _in_falling_order(values, order, other):  # type: ignore[no-untyped-def]
             cursor, two = begin, middle
             for k in range(begin, end):
                 if two >= end or (cursor < middle and values[order[cursor]] >= values[order[two]]):
-                    other[k], cursor = order[cursor], cursor + 1
+                    buffer[k], cursor = order[cursor], cursor + 1
                 else:
-                    other[k], two = order[two], two + 1
+                    buffer[k], two = order[two], two + 1
         for k in range(count):
-            order[k] = other[k]
+            order[k] = buffer[k]
         width *= 2

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from optimizer.numerics.arrays import Complex, Real, in_order, merged
+from optimizer.numerics.arrays import Complex, Real, in_order, single_axis
 from optimizer.program.compiled_evaluation import settling_work
 from optimizer.program.limits import Limits
 
@@ -52,4 +52,4 @@ def _rebalance(
 def _parts(influence: Real | Complex, leading: tuple[int, ...]) -> tuple[Real, Real]:
     """Real and imaginary parts (N, J, K), the latter (N, J, 0) where all are real."""
     across = influence[..., :0] if influence.dtype == float else influence.imag
-    return merged(leading, influence.real, 2), merged(leading, across, 2)
+    return single_axis(leading, influence.real, 2), single_axis(leading, across, 2)

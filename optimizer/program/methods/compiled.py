@@ -18,7 +18,7 @@ from optimizer.program.methods.disc_programs import disc_stages, suits_discs
 from optimizer.program.methods.rounding import HEAVIER, RUNGS
 from optimizer.program.points import points_at
 from optimizer.program.scaling import cancelling
-from optimizer.program.solution import CEILING_ROUNDING, Solutions, joined
+from optimizer.program.solution import CEILING_ROUNDING, Solutions, side_by_side
 from optimizer.program.statement import Statement
 
 if TYPE_CHECKING:
@@ -109,7 +109,7 @@ def stage_solutions(
     certain = discs[quick.certified]
     left = np.setdiff1d(np.arange(share.size), certain)
     rest = _general(statement.subset(left), share[left], demand[left], least_mass, level[left])
-    return joined([quick.subset(quick.certified), rest], np.argsort(np.concatenate([certain, left])))
+    return side_by_side([quick.subset(quick.certified), rest], np.argsort(np.concatenate([certain, left])))
 
 
 def _as_discs(statement: Statement, share: Real, demand: Real, least_mass: bool, at_least: Real) -> StageSolutions:

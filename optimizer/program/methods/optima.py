@@ -28,7 +28,7 @@ from optimizer.program.solution import (
     OPTIMUM_SHARE,
     ConeSolution,
     Solutions,
-    joined,
+    side_by_side,
 )
 from optimizer.program.statement import Statement
 from optimizer.program.verdict import yardstick
@@ -103,7 +103,7 @@ def optima(statement: Statement, relative_gap: float, least_mass: bool) -> Optim
         everywhere[:, webs] = part.unbalance
         parts.append(replace(part, unbalance=everywhere))
         places.append(programs)
-    return joined(parts, np.argsort(np.concatenate(places)))
+    return side_by_side(parts, np.argsort(np.concatenate(places)))
 
 
 def _optima(statement: Statement, relative_gap: float, least_mass: bool) -> Optima:

@@ -47,12 +47,12 @@ def in_motion(motion, centre, half, cubic, rest):  # type: ignore[no-untyped-def
     widths (m,)."""
     cubic, rest = cubic.copy(), rest.copy()
     for n in range(centre.size):
-        rest[n] = moved(motion, _FIRST, cubic[n], rest[n], centre[n], half[n])
+        rest[n] = into_motion(motion, _FIRST, cubic[n], rest[n], centre[n], half[n])
     return cubic, rest
 
 
 @inner
-def moved(motion, curve, cubic, rest, centre, half):  # type: ignore[no-untyped-def]
+def into_motion(motion, curve, cubic, rest, centre, half):  # type: ignore[no-untyped-def]
     """Bring a cubic (4,) of a curve into motion; what it then leaves out."""
     if motion.unit != 0.0:
         rest = _along(motion, cubic, rest, centre, half)

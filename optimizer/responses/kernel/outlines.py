@@ -50,14 +50,14 @@ class Outlines(NamedTuple):
 class Circles(NamedTuple):
     """The smallest circles around points of J curves.
 
-    support, weights, held : (J, 3) which points hold each, with what weights, and (J,) how many.
+    support, weights, counts : (J, 3) which points hold each, with what weights, and (J,) how many.
     """
 
     centre: Complex
     radius: Real
     support: np.ndarray
     weights: Real
-    held: np.ndarray
+    counts: np.ndarray
 
 
 @inner_with_arrays
@@ -68,15 +68,15 @@ def outlines(cubics, number, group):  # type: ignore[no-untyped-def]
     largest second derivative. A curve in a box that is smaller than the circle of another of its group has the circle
     around that box, and no places that hold it.
     """
-    curves, share, held = number.size, PLACES.size, _wide(cubics.half[number[0]])
-    values = np.empty((curves, held.size * share), np.complex128)
+    curves, share, wide = number.size, PLACES.size, _wide(cubics.half[number[0]])
+    values = np.empty((curves, wide.size * share), np.complex128)
     centre, radius = np.empty(curves, np.complex128), np.empty(curves)
     lower, upper = np.empty(curves), np.empty(curves)
     size, count = np.zeros(curves), 0
     curve, at, angle = np.empty(3 * curves, np.int64), np.empty(3 * curves, np.int64), np.empty(3 * curves)
     largest_of, bounds = np.full(curves, -1), np.full(curves, -np.inf)
     for j in range(curves):
-        centre[j], radius[j] = _box(cubics, number[j], held)
+        centre[j], radius[j] = _box(cubics, number[j], wide)
         if largest_of[group[j]] < 0 or radius[j] > radius[largest_of[group[j]]]:
             largest_of[group[j]] = j
     # the largest of each group first
@@ -87,39 +87,39 @@ def outlines(cubics, number, group):  # type: ignore[no-untyped-def]
         if radius[j] < bounds[group[j]]:
             radius[j], lower[j], upper[j] = 0.0, 0.0, radius[j]
             continue
-        for p in range(held.size):
-            _at_places(cubics.cubic[number[j], held[p]], values[j, p * share : (p + 1) * share])
+        for p in range(wide.size):
+            _at_places(cubics.cubic[number[j], wide[p]], values[j, p * share : (p + 1) * share])
         largest = 0.0
         for k in range(values.shape[1]):
             largest = max(largest, values[j, k].real ** 2 + values[j, k].imag ** 2)
         size[j] = np.sqrt(largest)
         centre[j], radius[j], support, _ = smallest(values[j])
         for k in range(support.size):
-            there, place = held[support[k] // share], PLACES[support[k] % share]
+            there, place = wide[support[k] // share], PLACES[support[k] % share]
             curve[count], at[count] = j, there
             angle[count] = cubics.centre[number[j], there] + cubics.half[number[j], there] * place
             count += 1
         rest, most = 0.0, -np.inf
-        for p in range(held.size):
-            beyond = cubics.rest[number[j], held[p]]
+        for p in range(wide.size):
+            beyond = cubics.rest[number[j], wide[p]]
             rest = max(rest, beyond)
-            own, cubic = values[j, p * share : (p + 1) * share], cubics.cubic[number[j], held[p]]
+            own, cubic = values[j, p * share : (p + 1) * share], cubics.cubic[number[j], wide[p]]
             most = max(most, _farthest_within(own, cubic, beyond, centre[j], most))
         lower[j], upper[j] = radius[j] - rest, most
         bounds[group[j]] = max(bounds[group[j]], lower[j])
     curve, at, angle = curve[:count].copy(), at[:count].copy(), angle[:count].copy()
-    return Outlines(held, values, centre, radius, lower, upper, size, curve, at, angle)
+    return Outlines(wide, values, centre, radius, lower, upper, size, curve, at, angle)
 
 
 @inner_with_arrays
 def _wide(half):  # type: ignore[no-untyped-def]
     """Which pieces (P',) have a width."""
-    count, held = 0, np.empty(half.size, np.int64)
+    count, wide = 0, np.empty(half.size, np.int64)
     for p in range(half.size):
         if half[p] > 0.0:
-            held[count] = p
+            wide[count] = p
             count += 1
-    return held[:count].copy()
+    return wide[:count].copy()
 
 
 @inner
@@ -154,11 +154,11 @@ def _farthest_within(values, cubic, rest, centre, most):  # type: ignore[no-unty
 
 
 @inner
-def _box(cubics, curve, held):  # type: ignore[no-untyped-def]
+def _box(cubics, curve, wide):  # type: ignore[no-untyped-def]
     """Middle of a box around a curve, by how far its pieces reach from their middles, and half of its diagonal."""
     left, right, low, high = np.inf, -np.inf, np.inf, -np.inf
-    for p in range(held.size):
-        cubic, along, across = cubics.cubic[curve, held[p]], cubics.rest[curve, held[p]], cubics.rest[curve, held[p]]
+    for p in range(wide.size):
+        cubic, along, across = cubics.cubic[curve, wide[p]], cubics.rest[curve, wide[p]], cubics.rest[curve, wide[p]]
         for k in range(1, 4):
             along += abs(cubic[k].real)
             across += abs(cubic[k].imag)
@@ -168,15 +168,15 @@ def _box(cubics, curve, held):  # type: ignore[no-untyped-def]
 
 
 @inner_with_arrays
-def farthest(cubics, number, outline, chosen, centre):  # type: ignore[no-untyped-def]
+def farthest(cubics, number, outline, active, centre):  # type: ignore[no-untyped-def]
     """Where some outlines (n,) are about as far from centres (n,) as anywhere: of which of all outlines, their curves,
     pieces and half widths of these, angles (m,) rad."""
     share, pieces = PLACES.size, outline.piece
     most = outline.values.shape[1]
-    square, which = np.empty(most), np.empty(chosen.size * most, np.int64)
-    piece, angle, count = np.empty(chosen.size * most, np.int64), np.empty((2, chosen.size * most)), 0
-    for n in range(chosen.size):
-        values, middle, largest = outline.values[chosen[n]], centre[n], 0.0
+    square, owner = np.empty(most), np.empty(active.size * most, np.int64)
+    piece, angle, count = np.empty(active.size * most, np.int64), np.empty((2, active.size * most)), 0
+    for n in range(active.size):
+        values, middle, largest = outline.values[active[n]], centre[n], 0.0
         for k in range(most):
             along, across = values[k].real - middle.real, values[k].imag - middle.imag
             square[k] = along * along + across * across
@@ -185,29 +185,29 @@ def farthest(cubics, number, outline, chosen, centre):  # type: ignore[no-untype
         for k in range(most):
             if square[k] < least or square[k] < max(square[k - 1], square[k + 1 if k + 1 < most else 0]):
                 continue
-            curve, there = number[chosen[n]], pieces[k // share]
+            curve, there = number[active[n]], pieces[k // share]
             at = _farthest(cubics.cubic[curve, there], centre[n], PLACES[k % share])
-            which[count], piece[count], angle[1, count] = chosen[n], there, cubics.half[curve, there]
+            owner[count], piece[count], angle[1, count] = active[n], there, cubics.half[curve, there]
             angle[0, count] = cubics.centre[curve, there] + cubics.half[curve, there] * at
             count += 1
-    which = which[:count].copy()
-    return which, number[which], piece[:count].copy(), angle[1, :count].copy(), angle[0, :count].copy()
+    owner = owner[:count].copy()
+    return owner, number[owner], piece[:count].copy(), angle[1, :count].copy(), angle[0, :count].copy()
 
 
 @inner_with_arrays
-def surround(of, points, chosen, circles):  # type: ignore[no-untyped-def]
+def surround(of, points, active, circles):  # type: ignore[no-untyped-def]
     """Write the smallest circles around points (m,) of curves (m,), for some of these (n,)."""
     place, own = np.empty(of.size, np.int64), np.empty(of.size, np.complex128)
-    for j in chosen:
+    for j in active:
         size = 0
         for k in range(of.size):
             if of[k] == j:
                 place[size], own[size] = k, points[k]
                 size += 1
-        circles.centre[j], circles.radius[j], held, shares = smallest(own[:size])
-        circles.held[j] = held.size
-        for k in range(held.size):
-            circles.support[j, k], circles.weights[j, k] = place[held[k]], shares[k]
+        circles.centre[j], circles.radius[j], support, shares = smallest(own[:size])
+        circles.counts[j] = support.size
+        for k in range(support.size):
+            circles.support[j, k], circles.weights[j, k] = place[support[k]], shares[k]
 
 
 @inner_with_arrays

@@ -161,13 +161,13 @@ def first_open(cubics, members, best):  # type: ignore[no-untyped-def]
     curves, pieces = cubics.half.shape
     reach = np.empty((curves if members.curve.size > curves else 0, pieces))
     reach[:, :1] = np.nan
-    parts = _none(_measured(cubics, members, best, reach, most))
+    parts = _none(_write_bounds(cubics, members, best, reach, most))
     _begun(cubics, members, best, most, parts)
     return still_open(parts, members, best, MOST_PARTS)
 
 
 @inner
-def _measured(cubics, members, best, reach, most):  # type: ignore[no-untyped-def]
+def _write_bounds(cubics, members, best, reach, most):  # type: ignore[no-untyped-def]
     """Write what members (M,) are not above on pieces, (M, P); how many of these are open.
 
     Parameters
@@ -281,22 +281,22 @@ def _sorted_out(parts, members, best, most, open_, survivors):  # type: ignore[n
 
 
 @inner_with_arrays
-def _cut(parts, chosen, places, shift):  # type: ignore[no-untyped-def]
+def _cut(parts, mask, places, shift):  # type: ignore[no-untyped-def]
     """Some parts, each in so many as there are places, by the same polynomial."""
     count = 0
-    for n in range(chosen.size):
-        count += chosen[n]
+    for n in range(mask.size):
+        count += mask[n]
     children = _none(places.size * count)
-    _divided(parts, chosen, places, shift, children)
+    _divided(parts, mask, places, shift, children)
     return children
 
 
 @inner
-def _divided(parts, chosen, places, shift, children):  # type: ignore[no-untyped-def]
+def _divided(parts, mask, places, shift, children):  # type: ignore[no-untyped-def]
     """Write the pieces of the chosen parts."""
     share, k = places.size, 0
-    for n in range(chosen.size):
-        if chosen[n]:
+    for n in range(mask.size):
+        if mask[n]:
             place = parts.place[n]
             for p in range(share):
                 children.member[k], children.piece[k] = parts.member[n], parts.piece[n]

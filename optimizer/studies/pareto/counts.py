@@ -16,7 +16,7 @@ from optimizer.solve.minimum_mass import BestSet, minimum_mass, none_of
 from optimizer.solve.solution import Infeasible
 from optimizer.solve.solve import solve
 from schemas.base.variation import with_fields
-from schemas.front.counts import PIECES, Counted, CountFront, CountPoint, CountTrade
+from schemas.front.counts import PIECES, Countable, CountFront, CountPoint, CountTrade
 from schemas.front.pareto import ParetoRequest
 from schemas.machine.catalogue import Catalogue
 from schemas.machine.machine import Machine
@@ -52,7 +52,7 @@ def count_front(request: ParetoRequest, trade: CountTrade, machine: Machine, sce
     )
 
 
-def at_most(machine: Machine, of: Counted, number: int) -> Machine:
+def at_most(machine: Machine, of: Countable, number: int) -> Machine:
     """The machine with no more counterweights, or part numbers, than a number."""
     if of in PIECES or number == 0:
         # nothing checked: there may be fewer of them than of sizes
@@ -61,7 +61,7 @@ def at_most(machine: Machine, of: Counted, number: int) -> Machine:
     return with_fields(machine, {("catalogue",): catalogue})
 
 
-def _most(task: Task, of: Counted) -> int:
+def _most(task: Task, of: Countable) -> int:
     """The largest number that means anything."""
     options = options_of(task).options
     if of in PIECES:

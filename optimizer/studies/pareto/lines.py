@@ -146,9 +146,9 @@ def _bound(optimum: CertifiedOptimum, u: Complex, excess: float) -> tuple[float,
 
 def _with_rivals(points: Sequence[TradedPoint]) -> list[TradedPoint]:
     """The points with what beats them, of two responses in the order of the rising first."""
-    ordered = sorted(points, key=lambda point: point.values) if points and len(points[0].values) == 2 else list(points)
-    values = np.array([point.values for point in ordered])
-    return [point.model_copy(update={"beaten_by": next(_beating(values, n), None)}) for n, point in enumerate(ordered)]
+    ranking = sorted(points, key=lambda point: point.values) if points and len(points[0].values) == 2 else list(points)
+    values = np.array([point.values for point in ranking])
+    return [point.model_copy(update={"beaten_by": next(_beating(values, n), None)}) for n, point in enumerate(ranking)]
 
 
 def _beating(values: Real, n: int) -> Iterator[int]:

@@ -37,7 +37,7 @@ _EMPTY = {
 }
 
 
-def measured(_: AccuracyRequest, answer: AccuracyAnswer) -> Iterator[Chapter]:
+def ladders(_: AccuracyRequest, answer: AccuracyAnswer) -> Iterator[Chapter]:
     """The ladders, and what stands behind the figures."""
     if answer.choices_ladder:
         yield Chapter("What counterweights as they are made cost", tuple(_choices(answer)))

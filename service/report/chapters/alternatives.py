@@ -29,7 +29,7 @@ def alternatives(answer: OptimizeAnswer) -> Iterator[Chapter]:
 
 def _row(choice: Alternative, best: float) -> tuple[Cell | float | None, ...]:
     above = choice.objective / best - 1.0 if best > 0 else 0.0
-    counted, bound = choice.minimised != "mass", choice.lower_bound
+    is_count, bound = choice.minimised != "mass", choice.lower_bound
     return (
         _LEAST[choice.minimised],
         _percent(choice.allowance),
@@ -37,7 +37,7 @@ def _row(choice: Alternative, best: float) -> tuple[Cell | float | None, ...]:
         choice.total_mass_kg,
         Number(choice.pieces, str(choice.pieces)),
         Number(choice.sizes, str(choice.sizes)),
-        Number(bound, f"{bound:.0f}") if counted and bound is not None else bound,
+        Number(bound, f"{bound:.0f}") if is_count and bound is not None else bound,
         ", ".join(
             f"{weight.web}: {weight.mass_kg:g} kg at {weight.angle_deg:g}°"
             for weight in every_counterweight(choice)

@@ -70,7 +70,7 @@ def analyzed(request: AnalyzeRequest, answer: AnalyzeAnswer) -> Iterator[Chapter
     """What the machine does without and with the counterweights that it was given."""
     if whole_mass(answer):
         total = facts("", [("total mass of the counterweights, kg", answer.total_mass_kg)])
-        own = (*balance.as_made(request.machine, answer.counterweights), total) if answer.counterweights else ()
+        own = (*balance.workshop_blocks(request.machine, answer.counterweights), total) if answer.counterweights else ()
         shafts = balance.on_balance_shafts(answer.balance_shafts, answer.balance_shafts_mass_kg)
         yield Chapter("Counterweights", (*own, *shafts))
     yield from worth_knowing(answer)

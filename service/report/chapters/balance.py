@@ -22,8 +22,8 @@ from service.report.blocks import (
     Table,
     angle,
     facts,
+    figure_beside,
     number,
-    settled,
     table,
 )
 from service.report.chapters.built import as_fitted
@@ -62,7 +62,7 @@ _NO_GAPS: Mapping[str, float] = {}
 _VERDICT = {"fully": "fully", "partly": "partly", "no": "not"}
 
 
-def shown(answer: OptimizeAnswer) -> tuple[Sequence[Counterweight], FirstOrder | None]:
+def best_set(answer: OptimizeAnswer) -> tuple[Sequence[Counterweight], FirstOrder | None]:
     """Counterweights to show and what they leave; of an infeasible request the best compromise."""
     if answer.infeasibility is not None:
         closest = answer.infeasibility.closest
@@ -75,7 +75,7 @@ def carried(answer: OptimizeAnswer) -> tuple[Counterweight, ...]:
     return every_counterweight(answer if answer.infeasibility is None else answer.infeasibility.closest)
 
 
-def added(answer: OptimizeAnswer, gaps: Mapping[str, float]) -> Iterator[tuple[str, float, Cell, str]]:
+def response_rows(answer: OptimizeAnswer, gaps: Mapping[str, float]) -> Iterator[tuple[str, float, Cell, str]]:
     """Peaks of the responses that count beside force and moment: without counterweights, with those that are shown.
 
     Parameters
@@ -89,20 +89,20 @@ def added(answer: OptimizeAnswer, gaps: Mapping[str, float]) -> Iterator[tuple[s
         yield (
             f"peak {response.label}, {response.unit}",
             response.before,
-            settled(after, response.before, gaps.get(response.response, 0.0)),
+            figure_beside(after, response.before, gaps.get(response.response, 0.0)),
             "",
         )
         if response.turn_before is not None:
             yield (
                 f"peak {response.label} of all orders, {response.unit}",
                 response.turn_before,
-                settled(response.turn_after, response.turn_before),
+                figure_beside(response.turn_after, response.turn_before),
                 "",
             )
 
 
-def which(answer: OptimizeAnswer) -> str:
-    """What the counterweights are that :func:`shown` gives."""
+def best_set_label(answer: OptimizeAnswer) -> str:
+    """What the counterweights are that :func:`best_set` gives."""
     return "best compromise" if answer.infeasibility is not None else "with counterweights"
 
 
@@ -121,7 +121,7 @@ def stages(machine: Machine, results: Sequence[Stage] | None, missing: Sequence[
                 stage.stage,
                 stage.title,
                 stage.value,
-                settled(stage.remaining, stage.value or 0.0),
+                figure_beside(stage.remaining, stage.value or 0.0),
                 stage.unit,
                 _VERDICT[stage.balanceable],
             )
@@ -138,13 +138,13 @@ def stages(machine: Machine, results: Sequence[Stage] | None, missing: Sequence[
         ["stage", "<quantity", "<formula"],
         [(stage.stage, stage.quantity, formula(stage.formula)) for stage in results],
     )
-    drawn = Figure(
+    scheme = Figure(
         (stage_scheme(machine, results),),
         "Scheme of the stages, from the front at shaft angle 0, each with a scale of its own: cranks black, row axes "
         "dash-dotted, forces orange and dashed without counterweights, blue what they leave. What turns is a circle "
         "with an arrow, what keeps its direction a line; of a moment the line is the trace of its plane.",
     )
-    return Chapter(title, (drawn, values, where, formulas, *_rules(results), Paragraph(_SOURCES)))
+    return Chapter(title, (scheme, values, where, formulas, *_rules(results), Paragraph(_SOURCES)))
 
 
 def _rules(results: Sequence[Stage]) -> Iterator[Block]:
@@ -165,7 +165,7 @@ def _rules(results: Sequence[Stage]) -> Iterator[Block]:
 
 def counterweights(request: OptimizeRequest, answer: OptimizeAnswer, built: AsBuilt | None) -> Chapter:
     """One row for each web."""
-    fitted, _ = shown(answer)
+    fitted, _ = best_set(answer)
     blocks: list[Block] = []
     if answer.infeasibility is not None:
         blocks.append(Paragraph("These are the counterweights of the best compromise, not an answer.", "warning"))
@@ -180,7 +180,7 @@ def counterweights(request: OptimizeRequest, answer: OptimizeAnswer, built: AsBu
     if built is not None:
         blocks += as_fitted(built)
     elif fitted:
-        blocks += as_made(request.machine, fitted)
+        blocks += workshop_blocks(request.machine, fitted)
     return Chapter("Counterweights", (*blocks, *shafts))
 
 
@@ -198,7 +198,7 @@ def on_balance_shafts(shafts: Sequence[FittedShaft], mass_kg: float | None) -> I
         yield facts("", [("total mass on the balance shafts, kg", mass_kg)])
 
 
-def as_made(machine: Machine, fitted: Sequence[Counterweight]) -> Iterator[Block]:
+def workshop_blocks(machine: Machine, fitted: Sequence[Counterweight]) -> Iterator[Block]:
     """What is on the crankshaft, and what a workshop has to know of it."""
     yield places(fitted)
     yield from holding(machine, fitted)
@@ -233,13 +233,13 @@ def places(fitted: Sequence[Counterweight]) -> Table:
 
 def before_and_after(request: OptimizeRequest, answer: OptimizeAnswer, built: AsBuilt | None) -> Chapter:
     """First-order force and moment, what the counterweights leave, and what those that are fitted do."""
-    _, left = shown(answer)
+    _, left = best_set(answer)
     # where all orders are asked for they have a chapter
-    shown_orders = two_orders(answer.residual.orders) if answer.orders is None else None
+    orders = two_orders(answer.residual.orders) if answer.orders is None else None
     filed = None if built is None else built.left
     gaps = resolutions(request, answer)
     return first_order(
-        request.machine, answer.residual.before, left, answer.floor, which(answer), shown_orders, filed, gaps
+        request.machine, answer.residual.before, left, answer.floor, best_set_label(answer), orders, filed, gaps
     )
 
 
@@ -270,8 +270,8 @@ def first_order(
     rows = [
         (
             title,
-            settled(getattr(getattr(was, vector), name), scales[vector]),
-            settled(getattr(getattr(left, vector), name), scales[vector], smallest[name]) if left else None,
+            figure_beside(getattr(getattr(was, vector), name), scales[vector]),
+            figure_beside(getattr(getattr(left, vector), name), scales[vector], smallest[name]) if left else None,
             number(floors[name]) if name in floors else "",
         )
         for title, vector, name in _FIRST_ORDER
@@ -298,7 +298,7 @@ def first_order(
 def hodograph(output: Hodographs) -> Chapter:
     """Between which values force and moment run over the turn; the answer itself holds every sample."""
     rows = [
-        (name, settled(min(force), max(force)), max(force), settled(min(moment), max(moment)), max(moment))
+        (name, figure_beside(min(force), max(force)), max(force), figure_beside(min(moment), max(moment)), max(moment))
         for name, curve in (("without counterweights", output.before), ("with counterweights", output.after))
         if curve is not None
         for force in [list(map(math.hypot, curve.force_x_N, curve.force_y_N))]

@@ -16,11 +16,11 @@ def balance_quality(machine: Machine, answer: OptimizeAnswer | AnalyzeAnswer) ->
     if result.after is not None:
         gradings.append(("with counterweights", result.after))
     rows = [
-        (what, name, plane.position_m, plane.permissible_kg_m, plane.unbalance_kg_m, angle(plane.angle_deg))
-        for what, grading in gradings
+        (label, name, plane.position_m, plane.permissible_kg_m, plane.unbalance_kg_m, angle(plane.angle_deg))
+        for label, grading in gradings
         for name, plane in (("A", grading.plane_a), ("B", grading.plane_b))
     ]
-    reached = "; ".join(f"{what} G {grading.grade_mm_s:.6g} mm/s" for what, grading in gradings)
+    reached = "; ".join(f"{label} G {grading.grade_mm_s:.6g} mm/s" for label, grading in gradings)
     heads = ["", "plane", "#z, m", "#permissible, kg m", "#deviation, kg m", "#at, deg"]
     yield Chapter(
         "Balance quality",

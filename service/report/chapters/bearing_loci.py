@@ -16,7 +16,7 @@ _MOST = 4
 
 def bearing_loci(machine: Machine, loads: MainBearings) -> Iterator[Figure]:
     """Pictures, two to a row."""
-    drawn = loci(machine, loads)
+    pictures = loci(machine, loads)
     words = (
         "Loads of the main bearings as the shaft sees them, each with the smallest circle around it. Counterweights "
         "move curve and circle together and change neither, so that no peak, the distance of the farthest point from "
@@ -24,23 +24,23 @@ def bearing_loci(machine: Machine, loads: MainBearings) -> Iterator[Figure]:
     )
     if len(loads.bearings) > _MOST:
         words += f" Drawn are the {_MOST} of {len(loads.bearings)} with the largest loads."
-    for first in range(0, len(drawn), 2):
-        yield Figure(tuple(drawn[first : first + 2]), words if first == 0 else "")
+    for first in range(0, len(pictures), 2):
+        yield Figure(tuple(pictures[first : first + 2]), words if first == 0 else "")
 
 
 def loci(machine: Machine, loads: MainBearings) -> list[Drawing]:
     """A picture of each bearing, of those with the largest loads where they are many."""
     worst = sorted(loads.bearings, key=lambda bearing: -max(load.peak_N for load in _loads(bearing)))[:_MOST]
     sense = 1.0 if machine.rotation == "ccw" else -1.0
-    return [_drawn(bearing, loads.angle_deg, sense) for bearing in loads.bearings if bearing in worst]
+    return [_picture(bearing, loads.angle_deg, sense) for bearing in loads.bearings if bearing in worst]
 
 
-def _drawn(bearing: MainBearing, angle_deg: Sequence[float], sense: float) -> Drawing:
+def _picture(bearing: MainBearing, angle_deg: Sequence[float], sense: float) -> Drawing:
     strokes = (("without counterweights", BEFORE, "7 3"), ("with counterweights", AFTER, None))
     curves = []
     for load, (name, stroke, dash) in zip(_loads(bearing), strokes, strict=False):
         centre = complex(load.circle_x_N, load.circle_y_N)
-        curves.append(Curve(name, _turned(load, angle_deg, sense), centre, load.floor_N, stroke, dash))
+        curves.append(Curve(name, _on_shaft(load, angle_deg, sense), centre, load.floor_N, stroke, dash))
     return locus(f"load of bearing {bearing.name}", "N", curves)
 
 
@@ -49,7 +49,7 @@ def _loads(bearing: MainBearing) -> list[BearingLoad]:
     return [load for load in (bearing.before, bearing.after) if load is not None]
 
 
-def _turned(load: BearingLoad, angle_deg: Sequence[float], sense: float) -> list[complex]:
+def _on_shaft(load: BearingLoad, angle_deg: Sequence[float], sense: float) -> list[complex]:
     """The load over the turn in a frame that turns with the shaft, as drawn at shaft angle 0."""
     return [
         complex(x, y) * cmath.exp(-1j * sense * math.radians(angle))

@@ -6,9 +6,9 @@ from schemas.answer.effects import EffectCatalogue
 from service.report.blocks import Chapter, table
 
 
-def names(title: str, named: Sequence[tuple[str, str]]) -> Iterator[Chapter]:
+def names(title: str, entries: Sequence[tuple[str, str]]) -> Iterator[Chapter]:
     """Names with what they stand for."""
-    yield Chapter(title, (table("", ["name", ""], named),))
+    yield Chapter(title, (table("", ["name", ""], entries),))
 
 
 def effects(catalogue: EffectCatalogue) -> Iterator[Chapter]:

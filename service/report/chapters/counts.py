@@ -12,7 +12,7 @@ _COUNTED = {
 _VALUE = {"objective": "#objective", "mass": "#minimum mass, kg"}
 
 
-def counted(front: CountFront) -> Block:
+def count_table(front: CountFront) -> Block:
     """A row for every number."""
     heads = [f"#at most, {_COUNTED[front.of]}", _VALUE[front.least], "#proven at least", "#relative gap"]
     heads += ["#peak force, N", "#peak moment, N m"]

@@ -8,7 +8,7 @@ from service.report.blocks import Block, table
 _ACTING = {"double": "both sides", "head": "head side", "crank": "crank side", None: "sides with gas data"}
 
 
-def cylinders(named: list[tuple[str, Cylinder]]) -> Iterator[Block]:
+def cylinders(entries: list[tuple[str, Cylinder]]) -> Iterator[Block]:
     """Tables of cylinders by the names that they are told by."""
     yield table(
         "Cylinders",
@@ -21,12 +21,12 @@ def cylinders(named: list[tuple[str, Cylinder]]) -> Iterator[Block]:
                 name, _ACTING[cylinder.acting], cylinder.bore_m, cylinder.piston_rod_diameter_m, cylinder.head_area_m2,
                 cylinder.crank_area_m2, cylinder.ambient_pressure_Pa,
             )
-            for name, cylinder in named
+            for name, cylinder in entries
         ],
     )  # fmt: skip
     states = [
         (name, side, state)
-        for name, cylinder in named
+        for name, cylinder in entries
         for side, state in (("both", cylinder), ("head", cylinder.head), ("crank", cylinder.crank))
         if state is not None
     ]
@@ -45,10 +45,10 @@ def cylinders(named: list[tuple[str, Cylinder]]) -> Iterator[Block]:
             "#compression exponent",
         ]  # fmt: skip
         yield table("Gas", heads, stated)
-    yield from _pressures(named)
+    yield from _pressures(entries)
 
 
-def _pressures(named: list[tuple[str, Cylinder]]) -> Iterator[Block]:
+def _pressures(entries: list[tuple[str, Cylinder]]) -> Iterator[Block]:
     """Indicated pressures: how many entries, over how many turns, from where to where."""
     rows = [
         (
@@ -56,7 +56,7 @@ def _pressures(named: list[tuple[str, Cylinder]]) -> Iterator[Block]:
             "the first" if indicated.dead_centre_deg is None else indicated.dead_centre_deg,
             len(trace.angle_deg), min(trace.pressure_Pa), max(trace.pressure_Pa),
         )
-        for name, cylinder in named
+        for name, cylinder in entries
         if (indicated := cylinder.pressure) is not None
         for side, trace in (("head", indicated.head), ("crank", indicated.crank))
         if trace is not None

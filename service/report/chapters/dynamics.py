@@ -128,12 +128,12 @@ def _gas(machine: Machine, gas: Gas) -> Chapter:
 
 
 def _piston_force(machine: Machine, forces: PistonForce) -> Chapter:
-    named = [(row_name(machine, row.throw, row.row), _parts(row)) for row in forces.rows]
-    series = [(f"{name}: {part.name}", part.values) for name, parts in named for part in parts]
+    parts_by_row = [(row_name(machine, row.throw, row.row), _parts(row)) for row in forces.rows]
+    series = [(f"{name}: {part.name}", part.values) for name, parts in parts_by_row for part in parts]
     total = _lines(machine, forces.rows, lambda row: row.total_N)
     words = f"Sum of gas, inertia and friction. {_SIGNS}"
     figures = [figure("piston force", "N", forces.angle_deg, total, words, tabled=True)]
-    for name, parts in named if len(named) <= _MAX_APART else ():
+    for name, parts in parts_by_row if len(parts_by_row) <= _MAX_APART else ():
         figures.append(figure(f"row {name}", "N", forces.angle_deg, parts, f"Forces on the piston of row {name}."))
     return Chapter("Piston forces", (extremes(f"{_EXTREMES}, N", forces.angle_deg, series), *figures))
 
@@ -167,7 +167,7 @@ def _rod_loads(machine: Machine, loads: RodLoads) -> Chapter:
     ]
     # of inertia alone the largest forces tell all: the curves are cosines and their products
     inertia = len(dry) == len(loads.rows)
-    others = [
+    guide_and_pin = [
         (f"{row_name(machine, row.throw, row.row)}: {quantity}", values)
         for row in loads.rows
         for quantity, values in (("side", row.side_N), ("tangential", row.tangential_N), ("radial", row.radial_N))
@@ -187,7 +187,7 @@ def _rod_loads(machine: Machine, loads: RodLoads) -> Chapter:
             *((Paragraph(_DRY, "warning"),) if dry else ()),
             facts("", [("largest rod force of the machine, N", loads.governing_load_N)]),
             table("Rod force by load case", heads, cases),
-            extremes(f"Forces on guide{'' if inertia else ' and crank pin'}, N", loads.angle_deg, others),
+            extremes(f"Forces on guide{'' if inertia else ' and crank pin'}, N", loads.angle_deg, guide_and_pin),
             *(
                 figure(title, "N", loads.angle_deg, lines, f"{caption} {_SIGNS}")
                 for title, caption, lines in (() if inertia else series)
@@ -219,7 +219,7 @@ def _torque(machine: Machine, torque: Torque) -> Chapter:
         ("shaft power, W", torque.shaft_power_W),
     ]
     lines = [total, mean, *(by_row if len(by_row) <= MAX_LINES - 2 else ())]
-    drawn = figure("torque", "N m", torque.angle_deg, lines, f"Torque of the shaft. {_SIGNS}")
+    curve = figure("torque", "N m", torque.angle_deg, lines, f"Torque of the shaft. {_SIGNS}")
     return Chapter(
         "Torque",
         (
@@ -235,7 +235,7 @@ def _torque(machine: Machine, torque: Torque) -> Chapter:
             ),
             *((table("Mean torque of the rows", ["row", "#mean torque, N m"], rows),) if driven else ()),
             extremes(f"{_EXTREMES}: torque of rows and machine, N m", torque.angle_deg, [*by_row, total, *tangential]),
-            replace(drawn, samples=Samples("torque", "N m", torque.angle_deg, [*by_row, total, *tangential])),
+            replace(curve, samples=Samples("torque", "N m", torque.angle_deg, [*by_row, total, *tangential])),
         ),
     )
 
@@ -288,20 +288,20 @@ def _main_bearings(machine: Machine, loads: MainBearings) -> Chapter:
     smooth_heads = ["bearing", "#rms without, N", "#rms with, N", "#floor of the peak, N"]
     shaft = {"simple_spans": "every span simply supported", "continuous": "a continuous shaft on rigid bearings"}
     lines = [Line(f"{bearing.name}", _magnitude(bearing.after or bearing.before)) for bearing in loads.bearings]
-    which = "with counterweights" if any(bearing.after for bearing in loads.bearings) else "without counterweights"
+    state = "with counterweights" if any(bearing.after for bearing in loads.bearings) else "without counterweights"
     bending = [Line("without counterweights", loads.bending.before_Nm)]
     if loads.bending.after_Nm is not None:
         bending.append(Line("with counterweights", loads.bending.after_Nm))
     planes = loads.bending.position_m
     largest = [(line.name, *max(zip(line.values, planes, strict=True), key=itemgetter(0))) for line in bending]
-    drawn = chart("bending moment", "N m", "plane along the shaft z, m", loads.bending.position_m, bending)
+    curve = chart("bending moment", "N m", "plane along the shaft z, m", loads.bending.position_m, bending)
     blocks: list[Block] = [
         Paragraph(f"Taken as {shaft[loads.shaft]}; loads from rows, rotating masses and counterweights."),
         table("Peaks over the cycle", heads, rows),
         table("Root mean square, and what counterweights cannot go below", smooth_heads, smooth),
         table("Largest bending moment", ["", "#moment, N m", "#in the plane z, m"], largest),
-        figure("bearing load", "N", loads.angle_deg, lines, f"Magnitude of the load of the main bearings, {which}."),
-        Figure((drawn,), "Largest bending moment inside the shaft over the cycle, plane by plane."),
+        figure("bearing load", "N", loads.angle_deg, lines, f"Magnitude of the load of the main bearings, {state}."),
+        Figure((curve,), "Largest bending moment inside the shaft over the cycle, plane by plane."),
     ]
     blocks += bearing_loci(machine, loads)
     return Chapter("Main bearings", tuple(blocks))

@@ -3,7 +3,7 @@
 from collections.abc import Iterator, Mapping, Sequence
 
 from schemas.answer.foundation import OrderOfFoundation
-from service.report.blocks import Block, Cell, Chapter, Number, Paragraph, Table, prose, settled, table
+from service.report.blocks import Block, Cell, Chapter, Number, Paragraph, Table, figure_beside, prose, table
 from service.tables.foundation import oscillation, sets
 
 #: a load below this share of the largest of its kind is told in a sentence, not in a line
@@ -32,29 +32,29 @@ def foundation_loads(loads: Sequence[OrderOfFoundation]) -> Chapter:
 
 def _tables(loads: Sequence[OrderOfFoundation], names: Mapping[str, str], kind: str, unit: str) -> Iterator[Block]:
     """The loads of one kind, and a sentence on those that are left out."""
-    shown = sets(loads)
+    headings = sets(loads)
     rows: list[Row] = [
-        (order.order, words, tuple(oscillation(getattr(order, when), name) for when in shown))
+        (order.order, words, tuple(oscillation(getattr(order, when), name) for when in headings))
         for order in loads
         for name, words in names.items()
     ]
     largest = max(map(_largest, rows))
-    listed = [row for row in rows if _largest(row) > _SMALL * largest]
-    if listed:
-        yield _table(kind, unit, list(shown.values()), listed, largest)
-    rest = [row for row in rows if row not in listed]
+    entries = [row for row in rows if _largest(row) > _SMALL * largest]
+    if entries:
+        yield _table(kind, unit, list(headings.values()), entries, largest)
+    rest = [row for row in rows if row not in entries]
     if rest:
-        yield Paragraph(_left_out(kind, unit, rest, bool(listed)))
+        yield Paragraph(_left_out(kind, unit, rest, bool(entries)))
 
 
 def _largest(row: Row) -> float:
     return max((entry[0] for entry in row[2] if entry is not None), default=0.0)
 
 
-def _left_out(kind: str, unit: str, rest: Sequence[Row], some: bool) -> str:
+def _left_out(kind: str, unit: str, rest: Sequence[Row], has_entries: bool) -> str:
     most = max(map(_largest, rest))
-    what = f"{kind} of the orders asked for" if not some else f"{kind} that are not listed"
-    return f"{what} are 0." if most == 0.0 else f"{what} are at most {prose(most)} {unit}."
+    subject = f"{kind} of the orders asked for" if not has_entries else f"{kind} that are not listed"
+    return f"{subject} are 0." if most == 0.0 else f"{subject} are at most {prose(most)} {unit}."
 
 
 def _table(kind: str, unit: str, headings: Sequence[str], rows: Sequence[Row], scale: float) -> Table:
@@ -70,6 +70,6 @@ def _cells(parts: Sequence[tuple[float, float] | None], scale: float) -> Iterato
         if part is None:
             yield from (None, None, None)
             continue
-        amplitude = settled(part[0], scale)
+        amplitude = figure_beside(part[0], scale)
         still = isinstance(amplitude, Number) and amplitude.text == "0"
-        yield from (amplitude, settled(part[0] / _KILO, scale / _KILO), None if still else part[1])
+        yield from (amplitude, figure_beside(part[0] / _KILO, scale / _KILO), None if still else part[1])

@@ -8,22 +8,22 @@ from service.drawings.front import front
 from service.drawings.layout import Layout, layout_of
 from service.drawings.side import side
 from service.report.blocks import Chapter, Figure
-from service.report.chapters.balance import as_made, carried, shown
+from service.report.chapters.balance import best_set, carried, workshop_blocks
 from service.tables.as_built import AsBuilt
 
 
 def layout(request: OptimizeRequest, answer: OptimizeAnswer, built: AsBuilt | None) -> Chapter:
     """The machine with its counterweights, drawn."""
-    fitted, _ = shown(answer)
+    fitted, _ = best_set(answer)
     plan = layout_of(request.machine, carried(answer), () if built is None else built.counterweights)
     return Chapter(
         "Layout",
         (
-            *(() if built is None else as_made(request.machine, fitted)),
+            *(() if built is None else workshop_blocks(request.machine, fitted)),
             Figure(
                 (front(plan),),
                 "Front view from +z at shaft angle 0, to scale: cranks black, axes of rows dash-dotted, "
-                f"{_drawn(answer, plan)}, angles that a web allows as green wedges." + _shafts(plan) + _as_built(plan),
+                f"{_words(answer, plan)}, angles that a web allows as green wedges." + _shafts(plan) + _as_built(plan),
             ),
             Figure(
                 (side(plan, dimensions=True),),
@@ -35,14 +35,14 @@ def layout(request: OptimizeRequest, answer: OptimizeAnswer, built: AsBuilt | No
     )
 
 
-def _drawn(answer: OptimizeAnswer, plan: Layout) -> str:
+def _words(answer: OptimizeAnswer, plan: Layout) -> str:
     """How counterweights are drawn."""
-    what = "counterweights of the best compromise" if answer.infeasibility is not None else "counterweights"
+    subject = "counterweights of the best compromise" if answer.infeasibility is not None else "counterweights"
     if all(weight.shape is not None for weight in chain(plan.best, *(shaft.best for shaft in plan.balance))):
-        return f"{what} blue and true to shape, with their centres of mass as dots"
+        return f"{subject} blue and true to shape, with their centres of mass as dots"
     return (
-        f"{what} blue with their centres of mass as dots; a dashed disc stands for one of unknown shape, and its area "
-        "is as its mass"
+        f"{subject} blue with their centres of mass as dots; a dashed disc stands for one of unknown shape, and its "
+        "area is as its mass"
     )
 
 

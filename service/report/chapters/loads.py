@@ -16,9 +16,11 @@ def loads(machine: Machine, output: Loads) -> Chapter:
 
 
 def _blocks(machine: Machine, output: Loads) -> Iterator[Block]:
-    named = [(row_name(machine, row.throw, row.row), row) for row in output.rows]
+    rows_by_name = [(row_name(machine, row.throw, row.row), row) for row in output.rows]
     heads = ["row", "#reciprocating, kg", "#turning, kg", "#of the rod, kg"]
-    masses = [(name, row.reciprocating_mass_kg, row.rotating_mass_kg, row.rod_rotating_mass_kg) for name, row in named]
+    masses = [
+        (name, row.reciprocating_mass_kg, row.rotating_mass_kg, row.rod_rotating_mass_kg) for name, row in rows_by_name
+    ]
     yield table("Masses", heads, masses)
     heads = [
         "row", "#gas, N", "#inertia, N", "#running, N", "#piston rod and pin, N", "governed by", "#crosshead pin, N",
@@ -31,7 +33,7 @@ def _blocks(machine: Machine, output: Loads) -> Iterator[Block]:
                 name, row.largest_gas_N, row.largest_inertia_N, row.largest_piston_force_N, row.piston_rod_N,
                 row.piston_rod_governed_by, row.crosshead_pin_N,
             )
-            for name, row in named
+            for name, row in rows_by_name
         ],
     )  # fmt: skip
     heads = ["row", "#at the outer dead centre, N", "#at the inner dead centre, N", "#over the cycle, N"]
@@ -40,23 +42,23 @@ def _blocks(machine: Machine, output: Loads) -> Iterator[Block]:
         heads,
         [
             (name, row.stop_at_outer_dead_centre_N, row.stop_at_inner_dead_centre_N, row.stop_over_the_turn_N)
-            for name, row in named
+            for name, row in rows_by_name
         ],
     )
     covers = [
         (name, cover.cylinder + 1, cover.side, cover.largest_N, cover.smallest_N)
-        for name, row in named
+        for name, row in rows_by_name
         for cover in row.covers
     ]
     if covers:
         yield table("Covers and their bolts", ["row", "#cylinder", "end", "#largest, N", "#smallest, N"], covers)
     heads = ["row", "#tension, N", "#compression, N", "#mean, N", "#amplitude, N"]
-    frames = [(name, row.frame) for name, row in named]
+    frames = [(name, row.frame) for name, row in rows_by_name]
     rows = [(name, frame.tension_N, frame.compression_N, frame.mean_N, frame.amplitude_N) for name, frame in frames]
     yield table("Frame and frame bolts, alternating", heads, rows)
     guides = [
         (name, row.guide.weight_N, row.guide.largest_N, row.guide.smallest_N, 100.0 * row.guide.lifted_share)
-        for name, row in named
+        for name, row in rows_by_name
         if row.guide is not None
     ]
     if guides:

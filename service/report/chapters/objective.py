@@ -41,10 +41,10 @@ def _ceilings(goal: Objective, responses: Iterable[ResponseFields]) -> Iterator[
 
 def objective(request: OptimizeRequest) -> Table:
     """Weights, ceilings and goals, as they hold."""
-    goal, wanted = request.objective, weights(request.machine, request.objective)
+    goal, weight_of = request.objective, weights(request.machine, request.objective)
     count = active_responses(goal)
-    *others, last = (response.label for response in count)
-    names = ", ".join(f"peak {name}" for name in others)
+    *rest, last = (response.label for response in count)
+    names = ", ".join(f"peak {name}" for name in rest)
     combined = {
         "sum": f"smallest weighted sum of {names} and peak {last}",
         "max": "smallest larger one of weighted peak force and weighted peak moment"
@@ -56,7 +56,7 @@ def objective(request: OptimizeRequest) -> Table:
         [
             ("aim", combined[goal.combine]),
             *(
-                (f"weight of the peak {response.label}, {_per(response.unit)}", float(wanted[response.name]))
+                (f"weight of the peak {response.label}, {_per(response.unit)}", float(weight_of[response.name]))
                 for response in count
             ),
             *(

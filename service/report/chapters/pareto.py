@@ -8,7 +8,7 @@ from schemas.front.trade import TradedFront, TradedPoint
 from schemas.request.objective import Objective
 from service.common.figures import digits
 from service.report.blocks import Block, Cell, Chapter, Number, Paragraph, Table, table
-from service.report.chapters.counts import counted
+from service.report.chapters.counts import count_table
 from service.report.chapters.limits import limits
 from service.report.chapters.verdict import reachable
 from service.report.chapters.worst_case import stated_cases
@@ -44,7 +44,7 @@ def traded(request: ParetoRequest, answer: ParetoAnswer) -> Iterator[Chapter]:
     for count in answer.counts:
         budget = count.max_total_mass_kg
         limit = "no limit of the total mass" if budget is None else f"total mass up to {digits(budget)} kg"
-        yield Chapter(f"Numbers, {limit}: {count.status}", (counted(count),))
+        yield Chapter(f"Numbers, {limit}: {count.status}", (count_table(count),))
 
 
 def _bounds(answer: ParetoAnswer) -> Table:

@@ -18,7 +18,7 @@ _LINES = 18
 _MOST_PINS = 8
 
 
-def loaded(request: PinLoadsRequest, answer: PinLoadsAnswer) -> Iterator[Chapter]:
+def pins(request: PinLoadsRequest, answer: PinLoadsAnswer) -> Iterator[Chapter]:
     """The answer to a request about pins alone."""
     yield pin_loads(answer, request.pins or ())
 
@@ -45,11 +45,11 @@ def pin_figure(loads: PinLoads) -> Figure:
 def _blocks(loads: PinLoads, pins: Sequence[Pin]) -> Iterator[Block]:
     for warning in loads.warnings:
         yield Paragraph(warning.message[:1].upper() + warning.message[1:] + ".", "warning")
-    held = loads.equilibrium
-    if held.holds:
+    equilibrium = loads.equilibrium
+    if equilibrium.holds:
         yield Paragraph("The pins hold the scroll: moment and net force are in balance at every angle.")
     else:
-        reason = f": {held.reason}" if held.reason else ""
+        reason = f": {equilibrium.reason}" if equilibrium.reason else ""
         yield Paragraph(f"The pins do not hold the scroll at every angle{reason}.", "warning")
     yield Equation(formula("Q_i = 2 T/(n R) sin(theta - 2π(i - 1)/n)   for n evenly spaced pins on radius R"))
     yield Paragraph(_assumption(pins))
@@ -58,8 +58,8 @@ def _blocks(loads: PinLoads, pins: Sequence[Pin]) -> Iterator[Block]:
         [
             ("largest load of any pin, N", loads.peak_N),
             ("the same if members bore for half a revolution only, N", loads.half_turn_mechanism_peak_N),
-            ("largest error of the moment, N m", held.max_moment_error_Nm),
-            ("largest net force, N", held.max_net_force_N),
+            ("largest error of the moment, N m", equilibrium.max_moment_error_Nm),
+            ("largest net force, N", equilibrium.max_net_force_N),
             *_of_drive(loads),
             ("work of the pins over one pitch, J", loads.energy.pins_work_J),
             ("work of the torque over one pitch, J", loads.energy.torque_work_J),

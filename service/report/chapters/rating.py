@@ -77,7 +77,7 @@ def rated(_: RatingRequest, answer: RatingAnswer) -> Iterator[Chapter]:
     )
     yield Chapter("Machine", (totals, *_tandems(names, answer.tandem_loads)))
     if answer.choice is not None:
-        yield _chosen(names, answer.choice)
+        yield _choice(names, answer.choice)
     heads = ["stage", "loss at suction", "loss at discharge", "temperature coefficient"]
     stages = [(name, stage.sources) for name, stage in zip(names, answer.stages, strict=True)]
     sources = [
@@ -89,7 +89,7 @@ def rated(_: RatingRequest, answer: RatingAnswer) -> Iterator[Chapter]:
         yield Chapter("Warnings", tuple(_warnings(answer)))
 
 
-def _chosen(names: Sequence[str], choice: Choice) -> Chapter:
+def _choice(names: Sequence[str], choice: Choice) -> Chapter:
     """The designs on the way to rods and motor that suffice."""
     heads = [
         "#design", "#speed, rpm", *(f"#rod {name}, m" for name in names), *(f"#load {name}, N" for name in names),

@@ -101,12 +101,12 @@ def digest(request: ReportRequest) -> str:
     return hashlib.sha256(content.encode()).hexdigest()
 
 
-def appendix(request: ReportRequest, at: str, checked: Check | None = None) -> Chapter:
+def appendix(request: ReportRequest, at: str, outcome: Check | None = None) -> Chapter:
     """The request, then versions, time and its digest.
 
     Parameters
     ----------
-    checked : the answer's check, where it was checked.
+    outcome : the answer's check, where it was checked.
     """
     own = [name for name in _DOCUMENTS if name in request.model_fields_set]
     without = f" without {' and '.join(own)}" if own else ""
@@ -121,20 +121,20 @@ def appendix(request: ReportRequest, at: str, checked: Check | None = None) -> C
     )
     used = ", ".join(f"{name} {version}" for name, version in versions().items())
     digests = [("digest of the request", digest(request))]
-    if checked is not None:
-        outputs, times = ", ".join(checked.outputs), " and ".join(TIMES)
+    if outcome is not None:
+        outputs, times = ", ".join(outcome.outputs), " and ".join(TIMES)
         check += (
             f" That of the answer is of the JSON of /v1/optimize likewise, without {times}, where the request has the "
             f"outputs {outputs}."
         )
-        digests.append(("digest of the answer", checked.digest))
-    made = facts("", [("computed with", used), ("at", at), *digests])
+        digests.append(("digest of the answer", outcome.digest))
+    origin = facts("", [("computed with", used), ("at", at), *digests])
     return Chapter(
         "Appendix: request",
         (
             Paragraph(words),
             Listing("\n".join(_lines(_without_pixels(_request_fields(request)), _LINE))),
             Paragraph(check),
-            made,
+            origin,
         ),
     )

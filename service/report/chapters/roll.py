@@ -14,5 +14,5 @@ def roll(_machine: Machine, moments: Roll) -> Chapter:
         lines.append(Line("with balance shafts", moments.after.moment_Nm))
         rows.append(("with balance shafts, N m", moments.after.peak_Nm))
     words = "About the crankshaft on the frame, of all orders, with gas and friction and without the mean."
-    drawn = figure("roll moment", "N m", moments.angle_deg, lines, "Roll moment on the frame.")
-    return Chapter("Roll moment", (Paragraph(words), facts("Largest over the cycle", rows), drawn))
+    curve = figure("roll moment", "N m", moments.angle_deg, lines, "Roll moment on the frame.")
+    return Chapter("Roll moment", (Paragraph(words), facts("Largest over the cycle", rows), curve))

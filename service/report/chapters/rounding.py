@@ -32,7 +32,7 @@ def _blocks(request: RoundRequest, answer: OptimizeAnswer, rounding: Rounding) -
         [
             _row("any mass, any angle", rounding.optimum),
             _row("each on the nearest step", rounding.nearest),
-            ("best rounding", answer.certificate.objective, *_made(answer), "kept"),
+            ("best rounding", answer.certificate.objective, *_masses(answer), "kept"),
         ],
     )
     yield Paragraph(answer.status_reason)
@@ -54,10 +54,10 @@ def _blocks(request: RoundRequest, answer: OptimizeAnswer, rounding: Rounding) -
 
 
 def _row(name: str, weights: Weights) -> tuple[Cell | float | None, ...]:
-    return (name, weights.objective, *_made(weights), "kept" if weights.limits_kept else "broken")
+    return (name, weights.objective, *_masses(weights), "kept" if weights.limits_kept else "broken")
 
 
-def _made(weights: Weights | OptimizeAnswer) -> tuple[Cell | float | None, ...]:
+def _masses(weights: Weights | OptimizeAnswer) -> tuple[Cell | float | None, ...]:
     """Masses, those on balance shafts apart, and how many there are that are not fixed."""
     every = every_counterweight(weights)
     pieces = sum(counterweight.mass_kg > 0 and not counterweight.fixed for counterweight in every)

@@ -7,14 +7,14 @@ from schemas.request.shaft import ShaftRequest
 from service.report.blocks import Chapter, Paragraph, facts, table
 
 
-def shown(request: ShaftRequest, answer: ShaftAnswer) -> Iterator[Chapter]:
+def shaft(request: ShaftRequest, answer: ShaftAnswer) -> Iterator[Chapter]:
     """The answer to a request."""
     serious = sum(doubt.serious for doubt in answer.doubts)
     if serious:
         yield Chapter("Verdict", (Paragraph(f"Serious doubts: {serious}. Correct the model first.", "warning"),))
     frame = answer.frame
-    named = (("origin, m", frame.origin_m), ("x", frame.x), ("y", frame.y), ("z, the axis", frame.z))
-    rows = [(name, x, y, z) for name, (x, y, z) in named]
+    vectors = (("origin, m", frame.origin_m), ("x", frame.x), ("y", frame.y), ("z, the axis", frame.z))
+    rows = [(name, x, y, z) for name, (x, y, z) in vectors]
     yield Chapter("Frame of the shaft, in the model", (table("", ["", "#x", "#y", "#z"], rows),))
     if answer.throws:
         throws = [
@@ -47,8 +47,8 @@ def shown(request: ShaftRequest, answer: ShaftAnswer) -> Iterator[Chapter]:
             (unbalance.name, unbalance.position_m, unbalance.x_kg_m, unbalance.y_kg_m)
             for unbalance in answer.unbalances
         ]
-        both = table("In two planes", ["plane", "#position, m", "#x, kg m", "#y, kg m"], planes)
-        yield Chapter("Unbalance of the bodies", (mass, both))
+        unbalances = table("In two planes", ["plane", "#position, m", "#x, kg m", "#y, kg m"], planes)
+        yield Chapter("Unbalance of the bodies", (mass, unbalances))
     if answer.doubts:
         doubts = [(_name(request, doubt.pointer), doubt.code, doubt.message) for doubt in answer.doubts]
         yield Chapter("What to look at", (table("", ["face or body", "about", "<what was seen"], doubts),))
@@ -57,5 +57,5 @@ def shown(request: ShaftRequest, answer: ShaftAnswer) -> Iterator[Chapter]:
 def _name(request: ShaftRequest, pointer: str) -> str:
     """Where a doubt points, with the name that the CAD gives it."""
     _, kind, number = pointer.split("/")
-    named = (request.faces if kind == "faces" else request.bodies)[int(number)].name
-    return pointer if named is None else f"{named} ({pointer})"
+    name = (request.faces if kind == "faces" else request.bodies)[int(number)].name
+    return pointer if name is None else f"{name} ({pointer})"

@@ -40,7 +40,7 @@ def swept(counts: Mapping[str, int], best: "pa.Table", axes: tuple[str, ...], ti
     statuses = sorted(counts.items(), key=lambda pair: -pair[1])
     yield Chapter("Designs", (table("", ["status", "#count"], statuses),))
     if best.num_rows:
-        shown = [name for name in ("index", *axes, "status", *_FIGURES) if name in best.schema.names]
-        heads = [name if name == "status" else f"#{name}" for name in shown]
-        rows = [tuple(row[name] for name in shown) for row in best.select(shown).to_pylist()]
+        columns = [name for name in ("index", *axes, "status", *_FIGURES) if name in best.schema.names]
+        heads = [name if name == "status" else f"#{name}" for name in columns]
+        rows = [tuple(row[name] for name in columns) for row in best.select(columns).to_pylist()]
         yield Chapter(title, (table("", heads, rows),))

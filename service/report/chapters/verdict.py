@@ -8,8 +8,8 @@ from schemas.answer.limits import CeilingField
 from schemas.base.responses import ceilings
 from schemas.request.objective import COSTS, Objective
 from schemas.request.requests import OptimizeRequest
-from service.report.blocks import Block, Chapter, Equation, Formula, Paragraph, Run, facts, prose, settled, table
-from service.report.chapters.balance import added, shown, which
+from service.report.blocks import Block, Chapter, Equation, Formula, Paragraph, Run, facts, figure_beside, prose, table
+from service.report.chapters.balance import best_set, best_set_label, response_rows
 from service.report.chapters.built import decision
 from service.report.chapters.limits import limits, without_prices
 from service.report.chapters.resolution import resolutions
@@ -26,7 +26,7 @@ _CEILINGS: Mapping[CeilingField, str] = {
 
 def result(request: OptimizeRequest, answer: OptimizeAnswer, built: AsBuilt | None) -> Chapter:
     """The answer in plain words and a few figures."""
-    was, (_, left) = answer.residual.before, shown(answer)
+    was, (_, left) = answer.residual.before, best_set(answer)
     if answer.infeasibility is not None:
         words: list[Block] = list(reachable(request.objective, answer.infeasibility))
     else:
@@ -35,14 +35,14 @@ def result(request: OptimizeRequest, answer: OptimizeAnswer, built: AsBuilt | No
         return Chapter("Result", (*words, *decision(answer, built)))
     force, moment = was.force.peak_N, was.moment.peak_Nm
     gaps, floor = resolutions(request, answer), answer.floor
-    left_force = settled(left.force.peak_N if left else None, force, gaps.get("force", 0.0))
-    left_moment = settled(left.moment.peak_Nm if left else None, moment, gaps.get("moment", 0.0))
+    left_force = figure_beside(left.force.peak_N if left else None, force, gaps.get("force", 0.0))
+    left_moment = figure_beside(left.moment.peak_Nm if left else None, moment, gaps.get("moment", 0.0))
     rows = [
-        ("peak force, N", force, left_force, settled(floor.force_N, force)),
-        ("peak moment, N m", moment, left_moment, settled(floor.moment_Nm, moment)),
-        *added(answer, gaps),
+        ("peak force, N", force, left_force, figure_beside(floor.force_N, force)),
+        ("peak moment, N m", moment, left_moment, figure_beside(floor.moment_Nm, moment)),
+        *response_rows(answer, gaps),
     ]
-    heads = ["quantity", "#without counterweights", f"#{which(answer)}", "#floor"]
+    heads = ["quantity", "#without counterweights", f"#{best_set_label(answer)}", "#floor"]
     figures = table("First-order peaks over a revolution", heads, rows)
     return Chapter("Result", (*words, figures, *_total(answer)))
 
@@ -157,7 +157,7 @@ def certificate(request: OptimizeRequest, answer: OptimizeAnswer) -> Chapter:
         words += "No lower bound is proven."
     else:
         words += (
-            f"{_what_bounds(proof)} bring it below "
+            f"{_bound_words(proof)} bring it below "
             f"{prose(proof.lower_bound)}. Other counterweights gain at most {_percent(proof.relative_gap)} of the "
             "objective without counterweights."
         )
@@ -196,7 +196,7 @@ def certificate(request: OptimizeRequest, answer: OptimizeAnswer) -> Chapter:
     return Chapter(title, (*blocks, *without_prices(request, answer)))
 
 
-def _what_bounds(proof: Certificate) -> str:
+def _bound_words(proof: Certificate) -> str:
     if proof.nodes is None:
         return "A lower bound in closed form shows that no counterweights within these limits"
     by = f"Branch and bound with {proof.nodes} nodes over" if proof.nodes else "The comparison of"

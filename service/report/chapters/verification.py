@@ -57,29 +57,29 @@ def digest(answer: OptimizeAnswer) -> str:
     return hashlib.sha256(content.encode()).hexdigest()
 
 
-def sentence(checked: Check, request: str) -> Paragraph:
+def sentence(outcome: Check, request: str) -> Paragraph:
     """How many claims were checked, what became of them, and of which request and answer.
 
     Parameters
     ----------
     request : digest of the request.
     """
-    which = f"Digests: request {request[:SHORT]}, answer {checked.digest[:SHORT]}."
-    if checked.verification is None:
-        return Paragraph(f"The answer holds more than is checked at a time: nothing was checked. {which}", "warning")
-    result = checked.verification
+    digests = f"Digests: request {request[:SHORT]}, answer {outcome.digest[:SHORT]}."
+    if outcome.verification is None:
+        return Paragraph(f"The answer holds more than is checked at a time: nothing was checked. {digests}", "warning")
+    result = outcome.verification
     count = f"Checked by files that share nothing with what computed it: {result.checked} of {result.leaves} claims"
     if result.verdict == "broken":
         broken = ", ".join(
             f"{claim.claim} ({_words(claim.where)})" for claim in result.claims if claim.verdict == "broken"
         )
-        return Paragraph(f"{count}. Broken: {broken}. {which}", "warning")
+        return Paragraph(f"{count}. Broken: {broken}. {digests}", "warning")
     if result.verdict == "held":
-        return Paragraph(f"{count}, and every one holds. {which}")
+        return Paragraph(f"{count}, and every one holds. {digests}")
     open_claims = (claim.where for claim in result.claims if claim.verdict == "not covered")
     names = [*dict.fromkeys(map(_words, (*open_claims, *result.not_covered)))]
     more = f" and {len(names) - _SHOWN} more" if len(names) > _SHOWN else ""
-    return Paragraph(f"{count}; nothing is broken. Not covered: {', '.join(names[:_SHOWN])}{more}. {which}")
+    return Paragraph(f"{count}; nothing is broken. Not covered: {', '.join(names[:_SHOWN])}{more}. {digests}")
 
 
 def _words(pointer: str) -> str:

@@ -15,7 +15,7 @@ from schemas.request.requests import AnalyzeRequest
 from service.common.figures import digits, typeset
 from service.common.validation import pointer
 from service.report.blocks import Block, Chapter, Paragraph, Table, table
-from service.report.chapters.balance import shown
+from service.report.chapters.balance import best_set
 from service.tables.whole_mass import whole_mass
 
 #: differences of a version that are listed; of more it is said how many there are
@@ -45,13 +45,13 @@ def compared(request: ReportRequest, answer: OptimizeAnswer) -> Iterator[Chapter
     if not request.versions:
         return
     columns = [
-        Column(_THIS, answer.status, shown(answer)[1], whole_mass(answer), every_counterweight(answer)),
-        *(_computed(request, place) for place in range(len(request.versions))),
+        Column(_THIS, answer.status, best_set(answer)[1], whole_mass(answer), every_counterweight(answer)),
+        *(_column(request, place) for place in range(len(request.versions))),
     ]
     yield Chapter("Versions compared", (_figures(columns), _weights(columns), *_differences(request)))
 
 
-def _computed(request: ReportRequest, place: int) -> Column:
+def _column(request: ReportRequest, place: int) -> Column:
     version = request.versions[place]
     try:
         if version.counterweights is not None:
@@ -64,7 +64,7 @@ def _computed(request: ReportRequest, place: int) -> Column:
         raise MissingInput(
             FieldProblem(("versions", place, *path), message) for path, message in error.problems
         ) from None
-    return Column(version.name, result.status, shown(result)[1], whole_mass(result), every_counterweight(result))
+    return Column(version.name, result.status, best_set(result)[1], whole_mass(result), every_counterweight(result))
 
 
 def _figures(columns: Sequence[Column]) -> Table:
@@ -122,9 +122,9 @@ def _differences(request: ReportRequest) -> Iterator[Block]:
 
 def _changes(request: ReportRequest, version: DesignVersion) -> Iterator[tuple[str, str, str]]:
     for name in ("machine", "objective"):
-        other = getattr(version, name)
-        if other is not None:
-            yield from _apart((name,), getattr(request, name).model_dump(mode="json"), other.model_dump(mode="json"))
+        part = getattr(version, name)
+        if part is not None:
+            yield from _apart((name,), getattr(request, name).model_dump(mode="json"), part.model_dump(mode="json"))
 
 
 def _apart(path: tuple[str | int, ...], here: Any, there: Any) -> Iterator[tuple[str, str, str]]:

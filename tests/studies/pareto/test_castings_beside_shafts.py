@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from optimizer.studies.accuracy.measure import accuracy
-from service.report.chapters.counts import counted
+from service.report.chapters.counts import count_table
 from tests.optimize.machines import web
 from tests.optimize.shafts import WHOLE, at, shaft, single
 from tests.studies.pareto.cases import ask, front
@@ -63,7 +63,7 @@ def test_castings_are_counted_on_the_crankshaft_alone() -> None:
         assert point.value == pytest.approx(left * WHOLE, rel=1e-3)
         assert point.balance_shafts_mass_kg == pytest.approx(4.0, rel=1e-3)
         assert forces(point.model_dump())[0] == pytest.approx(point.force_peak_N, rel=2e-3)
-    titles = [column.title for column in counted(found).columns]
+    titles = [column.title for column in count_table(found).columns]
     assert {"mass on the crankshaft, kg", "on balance shafts, kg"} <= {*titles}
 
 

@@ -15,7 +15,7 @@ from schemas.rating.request import RatingRequest
 
 
 @record(frozen=True)
-class StageBuilt:
+class ActualStage:
     """One stage as built."""
 
     size: CylinderSize
@@ -34,7 +34,7 @@ def piston_speed(request: RatingRequest) -> float:
     return mean_piston_speed(request.stroke_m, request.speed_rpm)
 
 
-def build(request: RatingRequest, designs: Sequence[StageDesign]) -> list[StageBuilt]:
+def build(request: RatingRequest, designs: Sequence[StageDesign]) -> list[ActualStage]:
     """Every stage as built, (1-18) to (1-27).
 
     Raises
@@ -60,7 +60,7 @@ def build(request: RatingRequest, designs: Sequence[StageDesign]) -> list[StageB
     ]
     coefficients = delivery(request, in_cylinder, [design.m for design in designs])
     return [
-        StageBuilt(
+        ActualStage(
             size=sizes[i],
             corrections=(corrections[i], corrections[i + 1]),
             corrected=corrected[i],

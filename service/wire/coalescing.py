@@ -8,7 +8,7 @@ from typing import Any
 _LARGE = 16_000
 
 
-class Joined:
+class CoalescingTransport:
     """What is written within one turn of the event loop goes out together; all else is as the transport does it.
 
     unread : whether the client still sends what has been answered already.
@@ -26,8 +26,8 @@ class Joined:
         self._loop = loop
         self._unread, self._patience_s = unread, patience_s
         self._lingers: asyncio.TimerHandle | None = None
-        self._held = bytearray()
-        self._full = self._held_back = False
+        self._buffer = bytearray()
+        self._full = self._is_paused = False
 
     def __getattr__(self, name: str) -> Any:
         return getattr(self._transport, name)
@@ -35,22 +35,22 @@ class Joined:
     def write(self, data: bytes) -> None:
         if not data:
             return
-        if not self._held:
+        if not self._buffer:
             self._loop.call_soon(self.flush)
-        self._held += data
-        if len(self._held) > _LARGE:
+        self._buffer += data
+        if len(self._buffer) > _LARGE:
             self.flush()
 
     def write_last(self, data: bytes) -> None:
         """Hand over the end of an answer, with what is held; nothing is left for another turn."""
-        self._held += data
+        self._buffer += data
         self.flush()
 
     def flush(self) -> None:
         """Hand over what is held."""
-        if self._held:
-            held, self._held = self._held, bytearray()
-            self._transport.write(held)
+        if self._buffer:
+            data, self._buffer = self._buffer, bytearray()
+            self._transport.write(data)
 
     def pause_reading(self) -> None:
         self._full = True
@@ -62,21 +62,21 @@ class Joined:
 
     def hold_back(self) -> None:
         """Read no more until what has been read was looked at."""
-        self._held_back = True
+        self._is_paused = True
         self._transport.pause_reading()
 
     def go_on(self) -> None:
         """What has been read was looked at."""
-        if self._held_back:
-            self._held_back = False
+        if self._is_paused:
+            self._is_paused = False
             self._read_on()
 
     def _read_on(self) -> None:
-        if not (self._full or self._held_back):
+        if not (self._full or self._is_paused):
             self._transport.resume_reading()
 
     def get_write_buffer_size(self) -> int:
-        return len(self._held) + self._transport.get_write_buffer_size()
+        return len(self._buffer) + self._transport.get_write_buffer_size()
 
     def is_closing(self) -> bool:
         return self._lingers is not None or self._transport.is_closing()
@@ -94,7 +94,7 @@ class Joined:
             # the client has gone already: nobody sends, and nobody reads
             self._transport.close()
             return
-        self._full = self._held_back = False
+        self._full = self._is_paused = False
         self._read_on()
 
     def end(self) -> None:
