@@ -188,13 +188,9 @@ class OptimizeRequest(Scene, Ruled):
         if tolerances is None:
             return
         limited = any(getattr(goal, name) is not None for name in type(goal).model_fields if "_ceiling_" in name)
-        # trees of masses that are continuous close too slowly with a term for every web at every angle
-        several = () if self.machine.choice == "discrete" else goal.over_the_turn
-        also = "a ceiling" if limited else f"objective.{(*several, '')[0]}"
         for name in ("mass_relative", "angle_deg"):
-            beyond = (getattr(tolerances, name) > 0) and (limited or bool(several))
-            message = f"not with {what} and {also}: {_FIX_THE_CHOICE}"
-            yield Rule(beyond, ("tolerances", name), message)
+            message = f"not with {what} and a ceiling: {_FIX_THE_CHOICE}"
+            yield Rule(limited and getattr(tolerances, name) > 0, ("tolerances", name), message)
 
     def _cost_rules(self, choice: Choice | None) -> Iterator[Rule]:
         """What counts castings needs some to choose from."""
