@@ -38,8 +38,7 @@ _ROUNDING = (
 _WHY = {"time": LATE, "size": _SIZE, "cuts": _CUTS, "rounding": _ROUNDING}
 #: beside any of these, where the tree has proven nothing of its own
 _AMPLE = (
-    " The bound is that of free masses and angles: the catalogue comes so close to these that no closer bound was"
-    " proven."
+    " The bound is that of free masses and angles: what may be chosen comes so close that no closer bound was proven."
 )
 _NONE = "Proven infeasible: no set of counterweights keeps the ceilings, since {proof}."
 _BY = {True: "all were compared", False: "branch and bound excludes all of them"}

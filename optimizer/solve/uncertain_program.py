@@ -157,7 +157,8 @@ class Robust:
         return any(machine.scatters for machine in self.machines)
 
     @cached_property
-    def _measures(self) -> list[Measure]:
+    def measures(self) -> list[Measure]:
+        """Peaks of the first order that count or are limited, each once."""
         return list(dict.fromkeys(_measures(self.task)))
 
     @property
@@ -167,17 +168,18 @@ class Robust:
 
     def goals(self) -> Goals:
         """The program with the changes of masses that are known."""
-        goals = self._goals(self._signs)
-        return replace(goals, of_all_masses=self._of_all_masses) if self.scatters and self._measures else goals
+        goals = self.goals_at(self._signs)
+        return replace(goals, of_all_masses=self._of_all_masses) if self.scatters and self.measures else goals
 
-    def _goals(self, signs: Sequence[Sequence[Real]]) -> Goals:
+    def goals_at(self, signs: Sequence[Sequence[Real]]) -> Goals:
+        """The program with changes of masses of these signs (rows,), some for every machine."""
         cases = [machine.case(changes) for machine, changes in zip(self.machines, signs, strict=True)]
         (machine, objective), fidelity = self.space, self.task.fidelity
         return formulate(machine, objective, cases, self.scene.omega_squared, fidelity, self.scatter, self.scatters)
 
     def _of_all_masses(self) -> Problem:
-        every = [np.concatenate([machine.corners(measure) for measure in self._measures]) for machine in self.machines]
-        return self._goals([list(np.unique(corners, axis=0)) for corners in every]).program
+        every = [np.concatenate([machine.corners(measure) for measure in self.measures]) for machine in self.machines]
+        return self.goals_at([list(np.unique(corners, axis=0)) for corners in every]).program
 
     def learnt(self, u: Complex) -> bool:
         """Whether counterweights (K,) have shown changes of masses that are worse than those known before."""
@@ -192,7 +194,7 @@ class Robust:
 
     def _worse(self, machine: MachineOfCase, signs: Sequence[Real], u: Complex) -> Iterator[Real]:
         additions: list[Real] = []
-        for measure in self._measures if machine.scatters else ():
+        for measure in self.measures if machine.scatters else ():
             corners, so_far = machine.corners(measure), [*signs, *additions]
             size = machine.sizes(measure, corners, u)
             if not so_far or np.max(size) > (1.0 + _ALIKE) * np.max(machine.sizes(measure, np.stack(so_far), u)):

@@ -8,6 +8,7 @@ from pydantic import Field
 from schemas.base.model import Answer, Model
 from schemas.base.quantities import Count, Kilograms, Milliseconds
 from schemas.base.rules import Rule
+from schemas.request.cases import stated
 from schemas.request.requests import OptimizeRequest
 
 
@@ -30,7 +31,10 @@ class AccuracyRequest(OptimizeRequest):
 
     def rules(self) -> Iterator[Rule]:
         yield from super().rules()
-        yield from self.worst_case_rules("the ladder is of one machine as it is given")
+        message = "the ladder is of one machine as it is given"
+        for field in stated(self):
+            yield Rule(True, (field,), message)
+        yield from self.allowance_rules(message)
         for name in self.objective.over_the_turn:
             yield Rule(True, ("objective", name), "the ladder is of the first order: not asked of a whole cycle")
 
@@ -43,7 +47,9 @@ class AccuracyRow(Model):
         "interior_point_batch: the same on many programs at once, as a sweep does; interior_point_interpreted: the "
         "same in finer numbers; cone_program: the exact program, compiled once, one solve by clarabel; "
         "cone_program_matrices: the same without a modelling layer; sampled_angles: peaks seen only at sampled "
-        "shaft angles; polygonal_cones: linear, polygons in place of circles",
+        "shaft angles; polygonal_cones: linear, polygons in place of circles. With tolerances also nominal: "
+        "the optimum with nothing off; partly_off: with counterweights or masses alone; first_order: with masses at "
+        "corners that are worst by derivatives at the nominal optimum; corners: at those that so many rounds know",
         examples=["sampled_angles"],
     )
     setting: str = Field(description="what is varied within the method", examples=["36 angles"])
@@ -189,7 +195,7 @@ class PeakRow(Model):
 
 
 class Reference(Model):
-    """What errors are measured from."""
+    """What errors are measured from; with tolerances all of it is of the worst case."""
 
     objective: float = Field(description="smallest objective found", examples=[41250.2])
     lower_bound: float = Field(

@@ -159,13 +159,6 @@ class OptimizeRequest(Scene, Ruled):
         for broken, path, text in self.machine.no_envelopes(message):
             yield Rule(broken, ("machine", *path), text)
 
-    def worst_case_rules(self, message: str) -> Iterator[Rule]:
-        """Cases, tolerances and allowances that are given where only the machine as it is can be asked for."""
-        yield Rule(self.tolerances is not None, ("tolerances",), message)
-        for field in stated(self):
-            yield Rule(True, (field,), message)
-        yield from self.allowance_rules(message)
-
     def allowance_rules(self, message: str) -> Iterator[Rule]:
         """Allowances that are given where no cheaper choices are listed."""
         yield Rule(bool(self.alternatives), ("alternatives",), message)
@@ -193,13 +186,9 @@ class OptimizeRequest(Scene, Ruled):
         if tolerances is None:
             return
         limited = any(getattr(goal, name) is not None for name in type(goal).model_fields if "_ceiling_" in name)
-        # trees of masses that are continuous close too slowly with a term for every web at every angle
-        several = () if self.machine.choice == "discrete" else goal.over_the_turn
-        also = "a ceiling" if limited else f"objective.{(*several, '')[0]}"
         for name in ("mass_relative", "angle_deg"):
-            beyond = (getattr(tolerances, name) > 0) and (limited or bool(several))
-            message = f"not with {subject} and {also}: {_FIX_THE_CHOICE}"
-            yield Rule(beyond, ("tolerances", name), message)
+            message = f"not with {subject} and a ceiling: {_FIX_THE_CHOICE}"
+            yield Rule(limited and getattr(tolerances, name) > 0, ("tolerances", name), message)
 
     def _cost_rules(self, choice: Choice | None) -> Iterator[Rule]:
         """What counts castings needs some to choose from."""

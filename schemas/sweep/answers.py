@@ -32,6 +32,12 @@ class SweepState(Answer):
     invalid: int = Field(
         0, description="designs among them that break a rule, counted apart; their rows say which", examples=[3]
     )
+    infeasible: int = Field(
+        0,
+        description="designs among the failed ones for which it is proven that no counterweights keep the ceilings;"
+        " 0 of what version 0.2.0 computed",
+        examples=[2],
+    )
     rows: int = Field(description="rows that the results hold now; fewer than done with top or pareto", examples=[20])
     selected: int | None = Field(
         description="designs that top or pareto have looked at, some time after they are done; null without them",

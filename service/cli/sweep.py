@@ -184,10 +184,10 @@ def _watch(desk: "OwnerJobs", job: "Job", quiet: bool) -> "Job":
         BarColumn(),
         MofNCompleteColumn(),
         TimeRemainingColumn(),
-        TextColumn("{task.fields[invalid]} invalid, {task.fields[failed]} not certified"),
+        TextColumn("{task.fields[outcomes]}"),
     )
     with Progress(*columns, console=Console(stderr=True), disable=quiet) as progress:
-        bar = progress.add_task("designs", total=job.total, completed=job.done, failed=job.failed, invalid=job.invalid)
+        bar = progress.add_task("designs", total=job.total, completed=job.done, outcomes=_outcomes(job))
         contact = time.monotonic()
         while job.active:
             time.sleep(_POLL_S)
@@ -198,8 +198,13 @@ def _watch(desk: "OwnerJobs", job: "Job", quiet: bool) -> "Job":
                     fail(f"{error}; the same command goes on from there")
                 continue
             contact = time.monotonic()
-            progress.update(bar, completed=job.done, failed=job.failed, invalid=job.invalid)
+            progress.update(bar, completed=job.done, outcomes=_outcomes(job))
     return job
+
+
+def _outcomes(job: "Job") -> str:
+    """Rows without counterweights, by the reason; what is proven infeasible is certified."""
+    return f"{job.invalid} invalid, {job.infeasible} infeasible, {job.failed - job.infeasible} not certified"
 
 
 def _finish(desk: "OwnerJobs", job: "Job", request: "SweepRequest", output: Path, as_json: bool) -> dict[str, int]:

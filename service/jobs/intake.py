@@ -39,7 +39,7 @@ class ResultWriter:
             self._tell_faults(chunk, piece)
         records, error = self._records(came)
         computed = [
-            Computed(chunk, piece.failed, str(record.digest), record.bytes, piece.invalid)
+            Computed(chunk, piece.failed, str(record.digest), record.bytes, piece.invalid, piece.infeasible)
             for (chunk, piece), record in zip(came, records, strict=False)
         ]
         for record, counts in zip(records, self._leases.finish(computed), strict=True):

@@ -46,6 +46,8 @@ class Job:
     #: rows without a certified answer, and rows of designs that break a rule; no row is both
     failed: int
     invalid: int
+    #: of the rows that failed, those that are proven infeasible
+    infeasible: int
     version: int
     created: float
     started: float | None
@@ -93,13 +95,14 @@ class Chunk:
 @dataclass(frozen=True)
 class Computed:
     """A chunk whose file is on disk: rows without a certified answer, digest and size of the file, rows of invalid
-    designs."""
+    designs, and of those without an answer the proven infeasible ones."""
 
     chunk: Chunk
     failed: int
     digest: str
     bytes: int
     invalid: int = 0
+    infeasible: int = 0
 
 
 @dataclass(frozen=True)

@@ -20,6 +20,8 @@ _UNKNOWN = ("extra_forbidden", "literal_error", "union_tag_invalid")
 #: rows with these statuses do not count as failed, nor do those of invalid designs
 _ANSWERED = ("optimal", "analyzed")
 _INVALID = ("invalid",)
+#: rows without counterweights that are counted by themselves too: that there are none is proven
+_INFEASIBLE = ("infeasible",)
 _GROUP_CELLS = 750_000
 #: so many numbers tell whether a column compresses, and so large a share of them differs where it does not
 _SAMPLE, _DIFFERENT = 512, 0.95
@@ -131,7 +133,8 @@ def _piece(table: "pa.Table") -> ChunkResult:
         return int(pc.sum(pc.is_in(table["status"], value_set=pa.array(statuses))).as_py() or 0)
 
     invalid = count(_INVALID)
-    return ChunkResult(table_bytes(table), table.num_rows - count(_ANSWERED) - invalid, invalid=invalid)
+    failed = table.num_rows - count(_ANSWERED) - invalid
+    return ChunkResult(table_bytes(table), failed, invalid=invalid, infeasible=count(_INFEASIBLE))
 
 
 def _answer(computation: Computation) -> Callable[[bytes, int, int, Proceed], ChunkResult]:

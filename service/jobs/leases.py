@@ -134,6 +134,7 @@ class Leases:
                     "done": jobs.c.done + sum(piece.chunk.rows for piece in new),
                     "failed": jobs.c.failed + sum(piece.failed for piece in new),
                     "invalid": jobs.c.invalid + sum(piece.invalid for piece in new),
+                    "infeasible": jobs.c.infeasible + sum(piece.infeasible for piece in new),
                     "bytes": jobs.c.bytes + sum(on_disk(piece.bytes) for piece in new),
                 }
                 rows.change(connection, job, **counts)
@@ -231,10 +232,11 @@ class Leases:
             selection = record.rows == 0
             own = and_(chunks.c.job == job, chunks.c.start == record.start, chunks.c.stop == record.stop)
             condition = and_(own, chunks.c.digest == record.digest, chunks.c.state.in_(["done", "waiting"]))
-            row = connection.execute(select(chunks.c.failed, chunks.c.invalid, chunks.c.bytes).where(condition)).first()
+            counts_of = select(chunks.c.failed, chunks.c.invalid, chunks.c.infeasible, chunks.c.bytes)
+            row = connection.execute(counts_of.where(condition)).first()
             if entry is None or row is None:
                 return False
-            sizes = {"bytes": 0, "failed": 0, "invalid": 0}
+            sizes = {"bytes": 0, "failed": 0, "invalid": 0, "infeasible": 0}
             blank = {**sizes, "digest": None, "attempts": 0, "finished": None, "lease_owner": None}
             state = "waiting" if selection else "pending"
             connection.execute(update(chunks).where(own).values(state=state, **blank))
@@ -242,6 +244,7 @@ class Leases:
                 "done": entry.done - record.rows,
                 "failed": entry.failed - row.failed,
                 "invalid": entry.invalid - row.invalid,
+                "infeasible": entry.infeasible - row.infeasible,
             }
             if selection:
                 counts |= {"selected": 0, "kept": 0}
@@ -333,6 +336,7 @@ def _finish(connection: Connection, computed: Computed, now: float) -> bool:
     about = {
         "failed": computed.failed,
         "invalid": computed.invalid,
+        "infeasible": computed.infeasible,
         "digest": computed.digest,
         "bytes": on_disk(computed.bytes),
     }

@@ -219,6 +219,7 @@ class OwnerJobs:
             done=job.done,
             failed=job.failed,
             invalid=job.invalid,
+            infeasible=job.infeasible,
             rows=job.kept if job.selects else job.done,
             selected=job.selected if job.selects else None,
             repaired=job.repaired,

@@ -17,6 +17,7 @@ class ChunkResult:
     """What a chunk comes to: the content of its file, and how many of its rows failed; of a selection, its rows.
 
     invalid : rows of designs that break a rule; they did not fail.
+    infeasible : of the rows that failed, those proven to have no counterweights.
     faults : what the service found wrong with its own answers, and says in them.
     """
 
@@ -25,6 +26,7 @@ class ChunkResult:
     selection_rows: int = 0
     invalid: int = 0
     faults: tuple[str, ...] = ()
+    infeasible: int = 0
 
 
 #: kind, request, start, stop, path of the flag -> piece

@@ -4,6 +4,7 @@
 2: this table; digests, sizes and failures of chunks; what a job selects, has repaired and takes on disk; chunks made
    when they are given out; expiry in seconds lived.
 3: rows of invalid designs counted apart; those of older chunks stay among the failed.
+4: rows that are proven infeasible counted among those that failed; of older chunks none.
 """
 
 import json
@@ -14,7 +15,7 @@ from sqlalchemy.schema import CreateColumn
 
 from service.jobs.tables import chunks, jobs, metadata, schema
 
-NUMBER = 3
+NUMBER = 4
 
 _OLD_JOBS = {
     *("id", "kind", "request", "digest", "idempotency_key", "owner", "columns", "state", "total", "done", "failed"),
@@ -41,7 +42,7 @@ def prepare(connection: Connection) -> None:
     if "schema" in tables:
         _require_columns(connection, "schema")
         number = connection.scalar(select(schema.c.number))
-        if number == 2:
+        if number in (2, 3):
             _add_columns(connection)
             connection.execute(update(schema).values(number=NUMBER))
         elif number != NUMBER:

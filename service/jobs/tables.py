@@ -32,8 +32,10 @@ jobs = Table(
     Column("state", String(16), nullable=False),
     Column("total", BigInteger, nullable=False),
     Column("done", BigInteger, nullable=False, default=0),
-    # of the rows that are done: without a certified answer, and of designs that break a rule
+    # of the rows that are done: without a certified answer, those of them that are proven infeasible, and of designs
+    # that break a rule
     Column("failed", BigInteger, nullable=False, default=0),
+    Column("infeasible", BigInteger, nullable=False, default=0),
     Column("invalid", BigInteger, nullable=False, default=0),
     # chunks that went wrong more often than they are retried
     Column("faults", Integer, nullable=False, default=0),
@@ -79,9 +81,10 @@ chunks = Table(
     Column("lease_owner", String(64)),
     Column("lease_until", Double),
     Column("finished", Double),
-    # of the rows, how many failed or are invalid; of the file, its digest and size. No digest: written before there
-    # were digests
+    # of the rows, how many failed, are proven infeasible or invalid; of the file, its digest and size. No digest:
+    # written before there were digests
     Column("failed", BigInteger, nullable=False, default=0),
+    Column("infeasible", BigInteger, nullable=False, default=0),
     Column("invalid", BigInteger, nullable=False, default=0),
     Column("digest", String(64)),
     Column("bytes", BigInteger, nullable=False, default=0),

@@ -176,3 +176,23 @@ def test_points_show_what_balance_shafts_carry(portal: Portal, url: str) -> None
     expected = [points[0]["total_mass_kg"], points[0]["balance_shafts_mass_kg"]]
     assert masses == pytest.approx(expected, rel=1e-3)
     assert "roll" in panel.locator("#trade-y option").evaluate_all("all => all.map((each) => each.value)")
+
+
+def test_named_responses_are_those_of_the_worst_case(portal: Portal, url: str) -> None:
+    portal.open("two-rows-180")
+    portal.page.locator("#form").get_by_role("button", name="Add tolerances").click()
+    portal.unfold("/tolerances")
+    portal.input("/tolerances/mass_relative").fill("0.05")
+    portal.optimise()
+    panel = portal.open_panel("pareto")
+    panel.locator("#trade-y").select_option("mass")
+    panel.locator("[role=img][aria-label*='peak force in the worst case, N']").wait_for()
+    assert panel.locator("[role=img][aria-label*='mass in the worst']").count() == 0
+    body = portal.bodies("/v1/pareto")[-1]
+    assert body["responses"] == ["force", "mass"]
+    points = ask(url, "/v1/pareto", body)["trades"][0]["points"]
+    panel.locator("#pareto-point").press("Home")
+    panel.get_by_role("heading", name=f"Point 1 of {len(points)}").wait_for()
+    shown = [number(text) for text in cells(panel.locator(".picked table").first)[0][:2]]
+    assert shown == pytest.approx(points[0]["values"], rel=1e-4)
+    assert points[0]["values"][0] > 1.0001 * points[0]["nominal_values"][0]

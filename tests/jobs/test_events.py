@@ -15,7 +15,8 @@ from service.jobs.job import Job
 from service.jobs.rows import UnknownJob
 
 JOB = Job(
-    id="a" * 32, kind="sweep", owner=None, state="running", total=10, done=0, failed=0, invalid=0, version=1,
+    id="a" * 32, kind="sweep", owner=None, state="running", total=10, done=0, failed=0, invalid=0, infeasible=0,
+    version=1,
     created=0.0, started=None, ended=None, error=None, seed=0, chunk_rows=1, planned=10, selects=False, selected=0,
     kept=0, repaired=0, bytes=0,
 )  # fmt: skip

@@ -15,7 +15,7 @@ from tests.jobs.house import House
 from tests.jobs.test_races import claimed, submitted
 
 #: rows without an answer, digest, bytes, rows of invalid designs; on disk these are two pages and one
-FIRST, SECOND = (2, "a", 5000, 1), (3, "b", 4096, 2)
+FIRST, SECOND = (2, "a", 5000, 1, 2), (3, "b", 4096, 2, 1)
 BYTES = 8192 + 4096
 #: what a request and the names of its columns take
 ASKED = len(b"{}") + synthetic.SCHEMA.serialize().size
@@ -51,17 +51,17 @@ def ends(house: House, job: str) -> tuple[float | None, float | None]:
 
 
 def counts(job: Job) -> tuple[object, ...]:
-    return job.state, job.done, job.failed, job.invalid, job.bytes - ASKED, job.repaired
+    return job.state, job.done, job.failed, job.invalid, job.infeasible, job.bytes - ASKED, job.repaired
 
 
 def test_a_damaged_file_is_computed_again_and_its_rows_are_counted_anew(house: House) -> None:
     job = computed(house)
-    assert counts(house.store.get(job)) == ("done", 20, 5, 3, BYTES, 0)
+    assert counts(house.store.get(job)) == ("done", 20, 5, 3, 3, BYTES, 0)
     for number in (1, 2):
         assert house.leases.reopen(job, Record(0, 10, "a", 5000))
-        assert counts(house.store.get(job)) == ("running", 10, 3, 2, 4096, number)
+        assert counts(house.store.get(job)) == ("running", 10, 3, 2, 1, 4096, number)
         assert ends(house, job) == (None, None)
-        blank = {"state": "pending", "failed": 0, "invalid": 0, "bytes": 0, "attempts": 0}
+        blank = {"state": "pending", "failed": 0, "invalid": 0, "infeasible": 0, "bytes": 0, "attempts": 0}
         empty = {"digest": None, "finished": None, "lease_owner": None}
         chunk = row(house, job, 0)
         assert {name: chunk[name] for name in (*blank, *empty)} == blank | empty
@@ -71,7 +71,7 @@ def test_a_damaged_file_is_computed_again_and_its_rows_are_counted_anew(house: H
         assert again == Chunk(job, "synthetic", b"{}", 0, 10, 0)
         assert not house.leases.reopen(job, Record(0, 10, "a", 5000))
         assert house.leases.finish([Computed(again, *FIRST)]) == [True]
-        assert counts(house.store.get(job)) == ("done", 20, 5, 3, BYTES, number)
+        assert counts(house.store.get(job)) == ("done", 20, 5, 3, 3, BYTES, number)
         assert None not in ends(house, job)
 
 
@@ -100,7 +100,7 @@ def test_a_damaged_file_of_a_cancelled_job_waits_until_it_goes_on(house: House) 
     house.store.cancel(job)
     before = ends(house, job)
     assert house.leases.reopen(job, Record(0, 10, "a", 5000))
-    assert counts(house.store.get(job)) == ("cancelled", 0, 0, 0, 0, 1)
+    assert counts(house.store.get(job)) == ("cancelled", 0, 0, 0, 0, 0, 1)
     assert ends(house, job) == before
     assert house.leases.claim("one", 600.0) is None
 
@@ -111,11 +111,11 @@ def test_rows_are_selected_again_whose_file_is_damaged(house: House) -> None:
     for number in (0, 1):
         assert house.leases.finish_selection(selection, 20, 3, file) is None
         found = house.store.get(job)
-        assert counts(found) == ("done", 20, 5, 3, BYTES + 12288, number)
+        assert counts(found) == ("done", 20, 5, 3, 3, BYTES + 12288, number)
         assert (found.selected, found.kept) == (20, 3)
         assert house.leases.reopen(job, file)
         found = house.store.get(job)
-        assert counts(found) == ("running", 20, 5, 3, BYTES, number + 1)
+        assert counts(found) == ("running", 20, 5, 3, 3, BYTES, number + 1)
         assert (found.selected, found.kept) == (0, 0)
         selection = claimed(house)
         assert (selection.start, selection.stop) == (20, 20)
@@ -139,9 +139,9 @@ def test_a_selection_that_is_put_off_waits_for_more_rows(house: House) -> None:
     house.leases.finish([Computed(second, *SECOND)])
     assert row(house, job, 20)["state"] == "pending"
     # a file takes the place of the one before, and so do its bytes
-    assert counts(house.store.get(job))[4] == BYTES + 4096
+    assert counts(house.store.get(job))[5] == BYTES + 4096
     assert house.leases.finish_selection(claimed(house), 20, 3, Record(20, 20, "t", 9000)) == Record(20, 20, "s", 4096)
-    assert counts(house.store.get(job)) == ("done", 20, 5, 3, BYTES + 12288, 0)
+    assert counts(house.store.get(job)) == ("done", 20, 5, 3, 3, BYTES + 12288, 0)
 
 
 def test_a_job_goes_on_without_a_selection_that_cannot_be_made(house: House) -> None:

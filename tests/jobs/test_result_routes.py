@@ -14,7 +14,7 @@ from starlette.testclient import TestClient
 from service.computations.computation import XLSX
 from service.jobs import worksheet
 from tests.jobs.routes import ended, expected, finished, ready
-from tests.jobs.sweeps import MASS, analyses
+from tests.jobs.sweeps import MACHINE, MASS, analyses
 
 
 @pytest.fixture(scope="module")
@@ -107,6 +107,17 @@ def test_invalid_designs_are_rows(client: TestClient, sweep: str) -> None:
     assert "/machine/speed_rpm" in invalid[0]["message"]
     state = client.get(sweep).json()
     assert (state["invalid"], state["failed"]) == (20, 0)
+
+
+def test_proven_infeasibility_is_counted_by_itself(client: TestClient) -> None:
+    # analytic: half of 20 kg at 0.1 m and 500 rpm turns backwards, and no counterweight lowers these 2742 N
+    ceilings = [{"path": "/objective/force_ceiling_N", "values": [1000.0, 2700.0, 20000.0]}]
+    base = {"machine": MACHINE}
+    path = client.post("/v1/sweeps", json={"base": base, "axes": ceilings}).headers["location"]
+    state = ended(client, path)
+    rows = [json.loads(line) for line in client.get(f"{path}/results").text.splitlines()]
+    assert [row["status"] for row in rows] == ["infeasible", "infeasible", "optimal"]
+    assert (state["failed"], state["infeasible"], state["invalid"]) == (2, 2, 0)
 
 
 def test_top_and_pareto(client: TestClient) -> None:

@@ -117,14 +117,35 @@ def test_a_database_without_counts_of_invalid_rows_goes_on(settings: Settings) -
     engine = engine_of(settings)
     with engine.begin() as connection:
         for table in ("jobs", "chunks"):
-            connection.execute(text(f"ALTER TABLE {table} DROP COLUMN invalid"))
+            for column in ("invalid", "infeasible"):
+                connection.execute(text(f"ALTER TABLE {table} DROP COLUMN {column}"))
         connection.execute(text("UPDATE schema SET number = 2"))
         connection.execute(text("UPDATE jobs SET failed = 7"))
     desk = JobService(settings)
     found = desk.of().get(DONE)
     desk.close()
     # what was counted together stays so
-    assert (found.done, found.failed, found.invalid) == (400, 7, 0)
+    assert (found.done, found.failed, found.invalid, found.infeasible) == (400, 7, 0, 0)
+    with engine.connect() as connection:
+        assert connection.scalar(text("SELECT number FROM schema")) == NUMBER
+    engine.dispose()
+
+
+def test_a_database_without_counts_of_infeasible_rows_goes_on(settings: Settings) -> None:
+    write_1(settings)
+    old = JobService(settings)
+    old.of().get(DONE)
+    old.close()
+    engine = engine_of(settings)
+    with engine.begin() as connection:
+        for table in ("jobs", "chunks"):
+            connection.execute(text(f"ALTER TABLE {table} DROP COLUMN infeasible"))
+        connection.execute(text("UPDATE schema SET number = 3"))
+        connection.execute(text("UPDATE jobs SET failed = 7, invalid = 2"))
+    desk = JobService(settings)
+    found = desk.of().get(DONE)
+    desk.close()
+    assert (found.done, found.failed, found.invalid, found.infeasible) == (400, 7, 2, 0)
     with engine.connect() as connection:
         assert connection.scalar(text("SELECT number FROM schema")) == NUMBER
     engine.dispose()

@@ -113,9 +113,9 @@ def test_many_chunks_of_one_job_in_one_transaction(any_house: House) -> None:
     assert [chunk.start for chunk in (*some, *rest)] == list(range(0, 95, 10))
     assert leases.claim_chunks("a", LEASE_S, 4) == []
     before = store.get(job).version
-    assert leases.finish([Computed(chunk, 1, "d", 9, 2) for chunk in some]) == [True] * 4
+    assert leases.finish([Computed(chunk, 1, "d", 9, 2, 1) for chunk in some]) == [True] * 4
     found = store.get(job)
-    assert (found.done, found.failed, found.invalid, found.version) == (40, 4, 8, before + 1)
+    assert (found.done, found.failed, found.invalid, found.infeasible, found.version) == (40, 4, 8, 4, before + 1)
     assert leases.finish([Computed(chunk, 1, "d", 9) for chunk in (some[1], *rest, some[3])]) == [
         False,
         *[True] * 6,

@@ -179,14 +179,21 @@ def test_scenarios_that_are_none_are_refused_by_name(scenarios: list[dict[str, A
     assert any(f"scenarios/{pointer}" in each for each in found), found
 
 
-@pytest.mark.parametrize("case", [{"scenarios": [{"name": "a"}]}, {"tolerances": {}}])
-def test_sweeps_and_fronts_take_several_cases_and_the_ladder_does_not(case: dict[str, Any]) -> None:
-    body = {"machine": crank(), **case}
+def test_sweeps_and_fronts_take_scenarios_and_the_ladder_does_not() -> None:
+    body = {"machine": crank(), "scenarios": [{"name": "a"}]}
     axis = {"path": "/machine/speed_rpm", "values": [100.0]}
     assert SweepRequest.model_validate({"base": body, "axes": [axis]}).separate
     assert ParetoRequest.model_validate(body).uncertain
     with pytest.raises(ValidationError, match="machine as it is given"):
         AccuracyRequest.model_validate(body)
+
+
+def test_tolerances_go_with_sweeps_fronts_and_the_ladder() -> None:
+    body = {"machine": crank(), "tolerances": {}}
+    axis = {"path": "/machine/speed_rpm", "values": [100.0]}
+    assert SweepRequest.model_validate({"base": body, "axes": [axis]}).separate
+    assert ParetoRequest.model_validate(body).uncertain
+    assert AccuracyRequest.model_validate(body).tolerances is not None
 
 
 def test_what_a_scenario_lacks_is_asked_for_in_its_name() -> None:

@@ -40,7 +40,7 @@ def single_group(
         of_terms, np.searchsorted(statement.row, np.arange(statement.group.size)), axis=-1
     )
     level = np.array([np.sum(statement.largest(rows)[:, case_of == case], axis=-1) for case in np.unique(case_of)])
-    combinations, slack, kinds = list[tuple[int, ...]](), list[float](), list[int]()
+    combinations, slack, kinds = list[tuple[int, ...]](), list[Real](), list[int]()
     for case in np.unique(case_of):
         groups = np.flatnonzero(case_of == case)
         several = [_unlike(statement, np.flatnonzero(statement.group == group)) for group in groups]
@@ -52,13 +52,13 @@ def single_group(
         sums = list(itertools.product(*(indices.tolist() for indices in nearest)))
         values = np.sum(rows[:, np.array(sums)], axis=-1)
         of_kind = level[kind_of == kind_of[case]]
-        below = np.min(np.max(of_kind, axis=0)[:, None] - values, axis=0)
-        combinations, slack = combinations + sums, slack + below.tolist()
+        combinations, slack = combinations + sums, [*slack, np.max(of_kind, axis=0)[:, None] - values]
         kinds += [int(kind_of[case])] * len(sums)
     every = np.unique(kinds)
     kind_share = max(most // every.size, len(points))
     places = [np.flatnonzero(np.array(kinds) == kind) for kind in every]
-    nearest = [place[_nearest(np.array(slack)[None, place], kind_share)] for place in places]
+    far = np.concatenate(slack, axis=-1)
+    nearest = [place[_nearest(far[:, place], kind_share)] for place in places]
     rows_of_sums = [combinations[n] for n in np.concatenate(nearest).tolist()]
     return replace(_of_rows(statement, rows_of_sums), ceilings=_nearest_ceilings(statement.ceilings, points, most))
 
@@ -76,8 +76,16 @@ def _unlike(statement: Statement, rows: np.ndarray) -> np.ndarray:
 
 
 def _nearest(slack: Real, most: int) -> np.ndarray:
-    """Of what is so far below a level at points (M, n) the nearest, in their order."""
-    return np.sort(np.argsort(np.min(slack, axis=0), kind="stable")[:most])
+    """Of what is so far below a level at points (M, n) the nearest at each, then the nearest of the others, in order.
+
+    Many equal rows, as those of a load that turns with the shaft, crowd out no other.
+    """
+    count = slack.shape[-1]
+    if count <= most:
+        return np.arange(count)
+    order = np.argsort(np.min(slack, axis=0), kind="stable")
+    first = np.unique(np.argmin(slack, axis=-1))
+    return np.sort(np.concatenate([first, order[~np.isin(order, first)]])[:most])
 
 
 def _of_rows(statement: Statement, sums: Sequence[tuple[int, ...]]) -> Statement:

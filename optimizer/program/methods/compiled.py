@@ -58,13 +58,18 @@ class StageSolutions(Solutions):
     certified: np.ndarray  # (N,) bool: nothing better is worth looking for
 
 
+#: norms from which on it takes longer than a sparse solver, of which it factors three unknowns each
+MOST_NORMS = 150
+
+
 def suits_kernel(statement: Statement) -> bool:
     """Whether the compiled interior point takes such programs; others are cone programs.
 
-    They have one group, real influences, and no webs that are to be alike.
+    They have one group, real influences, no webs that are to be alike, and not too many norms.
     """
     real = not statement.norms.is_complex and not statement.ceilings.norms.is_complex
-    return bool(real and statement.group[-1] == 0 and statement.limits.alike is None)
+    few = statement.row.size <= MOST_NORMS
+    return bool(real and few and statement.group[-1] == 0 and statement.limits.alike is None)
 
 
 def stage_solutions(

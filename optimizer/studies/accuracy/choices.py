@@ -32,6 +32,7 @@ from optimizer.program.statement import Statement
 from optimizer.solve.solution import Infeasible
 from optimizer.solve.solve import solve
 from optimizer.studies.accuracy.ladder import LADDER_S, ROUNDS_S, frontier, median_ms
+from optimizer.studies.accuracy.uncertain import whole_worst_case
 from schemas.base.rules import Path
 from schemas.base.variation import with_fields
 from schemas.machine.choices import KINDS as CHOICES
@@ -99,8 +100,12 @@ class Ladder(NamedTuple):
 
 
 def at_rest(request: AccuracyRequest, scene: Prepared) -> Statement:
-    """The program of any masses; plates are not opened yet, and reach as far as they can."""
-    (machine, objective), square = Task.of(request).space, np.array([scene.omega_squared])
+    """The program of any masses, of the worst case where something is off; plates are not opened yet, and reach as far
+    as they can."""
+    task = Task.of(request)
+    if task.robust:
+        return whole_worst_case(task, scene)
+    (machine, objective), square = task.space, np.array([scene.omega_squared])
     return cone_program(closed(machine), objective, scene.responses, square).subset(0)
 
 

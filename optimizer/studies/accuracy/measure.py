@@ -4,7 +4,7 @@ import logging
 import os
 import platform
 import time
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from importlib.metadata import version
 from typing import NamedTuple
 
@@ -14,19 +14,21 @@ from optimizer.formulation.formulate import limited, weights
 from optimizer.formulation.goals import cone_program
 from optimizer.formulation.simulation import Prepared
 from optimizer.formulation.task import Task
+from optimizer.numerics.arrays import Complex
 from optimizer.outputs.registry import prepare
 from optimizer.program.ceilings import CEILING_TOLERANCE
-from optimizer.program.certificate import ceiling_allowance
+from optimizer.program.certificate import Multipliers, ceiling_allowance
+from optimizer.program.cuts.optimum import Conflict
 from optimizer.program.methods.implied_bounds import within_reach
 from optimizer.program.methods.optima import optima
-from optimizer.program.solution import ConeSolution
 from optimizer.program.statement import Statement
 from optimizer.studies.accuracy.choices import at_rest, choices_ladder
 from optimizer.studies.accuracy.effects import effects_ladder
-from optimizer.studies.accuracy.ladder import LADDER_S, Clock, Trial, frontier, median_ms, survey, time_rounds
-from optimizer.studies.accuracy.methods import POSITIONS, LadderProgram, methods
+from optimizer.studies.accuracy.ladder import LADDER_S, SOLVE_S, Clock, Trial, frontier, median_ms, survey, time_rounds
+from optimizer.studies.accuracy.methods import POSITIONS, LadderProgram, Method, methods
 from optimizer.studies.accuracy.peaks import peaks_ladder
 from optimizer.studies.accuracy.rivals.sampled import OverTheTurn, WeightedResponse
+from optimizer.studies.accuracy.uncertain import SHARPEST, plain, robust, uncertain_methods, whole_worst_case
 from schemas.base.mappings import or_mapping
 from schemas.base.version import package_version
 from schemas.request.accuracy import (
@@ -40,8 +42,6 @@ from schemas.request.accuracy import (
 )
 
 _LOG = logging.getLogger(__name__)
-#: gap asked of the reference
-_SHARPEST = 1e-9
 #: relative rounding of objectives and bounds of some hundred terms; nothing below it is told apart
 _ROUNDING = 1e-13
 _PACKAGES = ("numpy", "numba", "scipy", "clarabel", "cvxpy")
@@ -79,26 +79,61 @@ def _choice_fields(request: AccuracyRequest, scene: Prepared) -> dict[str, objec
 
 def _method_fields(request: AccuracyRequest, scene: Prepared) -> dict[str, object]:
     """Fields of the answer where counterweights have any mass at any angle."""
-    whole = within_reach(cone_program(*Task.of(request).space, scene.responses, scene.omega_squared))
+    task = Task.of(request)
+    if task.robust:
+        whole = within_reach(whole_worst_case(task, scene))
+    else:
+        whole = within_reach(cone_program(*task.space, scene.responses, scene.omega_squared))
     usable = whole.limits.reach > 0
     statement = whole.only(usable)
-    task = LadderProgram(statement, _turn(request, scene).only(usable))
+    program = LadderProgram(statement, _turn(request, scene).only(usable), plain(statement) if task.robust else None)
+    ways = uncertain_methods(task, scene, usable, statement) if task.robust else methods()
 
     status: Status = "measured"
     reference: Reference | None = None
     rows: tuple[AccuracyRow, ...] = ()
     rest = float(statement.objective(np.zeros(statement.limits.radius.shape, complex)))
-    best = optima(statement.alone(), _SHARPEST, False).single()
-    if best.conflict is not None:
+    best = _worst_best(task, scene, usable, statement) if task.robust else _best(statement)
+    if best is None:
         status = "infeasible"
     elif rest == 0.0 or not np.any(usable):
         status = "nothing_to_choose"
-        reference, _ = _judged(task, [], best, rest, scene.omega_squared)
+        reference, _ = _judged(program, [], best, rest, scene.omega_squared)
     else:
-        reference, rows = _judged(task, _run(task, request.repeats), best, rest, scene.omega_squared)
+        reference, rows = _judged(program, _run(program, ways, request.repeats), best, rest, scene.omega_squared)
     if reference is None and status != "infeasible":
         status = "contradicted"
     return {"status": status, "reference": reference, "size": _size(request, statement), "ladder": rows}
+
+
+class Best(NamedTuple):
+    """The smallest objective before any method runs, with its proof."""
+
+    unbalance: Complex  # (K,) kg m
+    objective: float
+    lower_bound: float
+    excess: float  # largest relative excess over a ceiling; -inf without ceilings
+    statement: Statement  # of the proof
+    multipliers: Multipliers
+
+
+def _best(statement: Statement) -> Best | None:
+    """That of a machine as it is given; None where no counterweights keep the ceilings."""
+    result = optima(statement.alone(), SHARPEST, False).single()
+    if result.conflict is not None:
+        return None
+    figures = result.unbalance, result.objective, result.lower_bound, result.excess
+    return Best(*figures, statement, result.multipliers)
+
+
+def _worst_best(task: Task, scene: Prepared, usable: np.ndarray, statement: Statement) -> Best | None:
+    """That of the worst case, by a statement of all of it."""
+    _, result = robust(task, scene, SHARPEST, SOLVE_S).solved()
+    if isinstance(result, Conflict):
+        return None
+    u, proof = result.point.unbalance[usable], result.proof
+    excess = float(np.max(statement.ceilings.excess(u), initial=-np.inf))
+    return Best(u, float(statement.objective(u)), proof.bound, excess, proof.statement, proof.multipliers)
 
 
 def _turn(request: AccuracyRequest, scene: Prepared) -> OverTheTurn:
@@ -118,22 +153,22 @@ def _turn(request: AccuracyRequest, scene: Prepared) -> OverTheTurn:
     )
 
 
-def _run(task: LadderProgram, repeats: int) -> list[Trial]:
+def _run(task: LadderProgram, ways: Iterable[Method], repeats: int) -> list[Trial]:
     clock = Clock.of(LADDER_S)
-    trials = survey(task, methods(), clock)
+    trials = survey(task, ways, clock)
     time_rounds(task, trials, repeats, clock)
     return trials
 
 
-def _proven(statement: Statement, best: ConeSolution, bounds: list[float], objective: float, excess: float) -> float:
+def _proven(statement: Statement, best: Best, bounds: list[float], objective: float, excess: float) -> float:
     """The sharpest bound; NaN where a value that was found is below it.
 
     A value is known to its rounding, and counterweights that exceed ceilings within the tolerance may gain what these
     cost, so a bound above the value by no more is lowered to it (docs/mathematics.md, section 5).
     """
     bound, slack = max(bounds), float(statement.rounding(best.unbalance))
-    over = np.full(statement.ceilings.size.shape, max(excess, 0.0))
-    slack += float(ceiling_allowance(statement, best.multipliers, over))
+    over = np.full(best.statement.ceilings.size.shape, max(excess, 0.0))
+    slack += float(ceiling_allowance(best.statement, best.multipliers, over))
     if bound <= objective + slack:
         return min(bound, objective)
     _LOG.error("a lower bound is above the value of an answer: %.17g above %.17g", bound, objective)
@@ -141,7 +176,7 @@ def _proven(statement: Statement, best: ConeSolution, bounds: list[float], objec
 
 
 def _judged(
-    task: LadderProgram, trials: list[Trial], best: ConeSolution, rest: float, square: float
+    task: LadderProgram, trials: list[Trial], best: Best, rest: float, square: float
 ) -> tuple[Reference | None, tuple[AccuracyRow, ...]]:
     results = [result for trial in trials for result in trial.judged if result.excess <= CEILING_TOLERANCE]
     objective = min([best.objective, *(result.objective for result in results)])

@@ -33,10 +33,14 @@ _FIXED = POSITIONS[:1]
 
 @record(frozen=True)
 class LadderProgram:
-    """The program to solve; all its webs can carry something."""
+    """The program to solve; all its webs can carry something.
+
+    plain : where something is off, the same as one sum of norms; None where it is none.
+    """
 
     statement: Statement
     turn: OverTheTurn
+    plain: Statement | None = None
 
 
 @record(frozen=True)

@@ -23,6 +23,10 @@ _METHODS = {
     "cone_program_matrices": "cone program, matrices",
     "sampled_angles": "sampled angles",
     "polygonal_cones": "polygonal cones",
+    "nominal": "nominal optimum",
+    "partly_off": "optimum with a part off",
+    "first_order": "first order of the scatter",
+    "corners": "worst corners by rounds",
     "rounding": "rounding by hand",
     "panels": "panels between kinks",
     "search": "search between kinks",
@@ -37,12 +41,14 @@ _EMPTY = {
 }
 
 
-def ladders(_: AccuracyRequest, answer: AccuracyAnswer) -> Iterator[Chapter]:
+def ladders(request: AccuracyRequest, answer: AccuracyAnswer) -> Iterator[Chapter]:
     """The ladders, and what stands behind the figures."""
     if answer.choices_ladder:
         yield Chapter("What counterweights as they are made cost", tuple(_choices(answer)))
     else:
-        yield Chapter("What the smallest objective costs (minimum mass is off)", tuple(_ladder(answer)))
+        worst = request.tolerances is not None and request.tolerances.any
+        goal = "the smallest worst case" if worst else "the smallest objective"
+        yield Chapter(f"What {goal} costs (minimum mass is off)", tuple(_ladder(answer)))
     if answer.effects_ladder:
         yield Chapter("What the figures of the cycle cost", (_effects(answer.effects_ladder),))
     if answer.peaks_ladder:

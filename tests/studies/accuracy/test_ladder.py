@@ -11,10 +11,9 @@ from hypothesis import strategies as st
 
 from optimizer.optimize import optimize
 from optimizer.program.certificate import nothing_proven
-from optimizer.program.solution import ConeSolution
 from optimizer.studies.accuracy import ladder, measure
 from optimizer.studies.accuracy.ladder import Clock, frontier, survey, time_rounds
-from optimizer.studies.accuracy.measure import _judged, accuracy
+from optimizer.studies.accuracy.measure import Best, _judged, accuracy
 from optimizer.studies.accuracy.methods import GAPS, POSITIONS, LadderProgram, Method, MethodResult, Run, methods
 from schemas.request.accuracy import AccuracyAnswer, AccuracyRequest
 from schemas.request.requests import OptimizeRequest
@@ -125,7 +124,7 @@ def test_times_are_for_one_of_the_programs_of_a_run() -> None:
 
     trials = survey(task, [Method("m", "", lambda: run, programs=10)], Clock.of(60.0))
     time_rounds(task, trials, 3, Clock.of(60.0))
-    best = ConeSolution(np.array([-0.5 + 0j]), 2.5, 2.5, 0.5, 0.0, -np.inf, nothing_proven(task.statement))
+    best = Best(np.array([-0.5 + 0j]), 2.5, 2.5, -np.inf, task.statement, nothing_proven(task.statement))
     reference, (row,) = _judged(task, trials, best, 3.0, 1.0)
     assert reference is not None
     assert row.time_ms is not None

@@ -132,7 +132,10 @@ async function frontOf(traded, request, ask) {
       points: found.points.map((point, n) => ({ ...point, values: [peaks[n].force_peak_N, peaks[n].moment_peak_Nm] })) };
   }
   const [found] = (await ask("v1/pareto", { ...asked, points: traded.length > 2 ? POINTS_OF_THREE : POINTS_OVER_THE_TURN, responses: traded })).trades;
-  return { ...found, titles: found.responses.map((one) => `${WORDS[one.response] ?? one.response}, ${one.unit}`), bare: found.responses.map((one) => one.without_counterweights) };
+  // of what is off every value but the mass is the worst
+  const worst = found.points.some((point) => point.nominal_values) ? " in the worst case" : "";
+  const where = (name) => (name === "mass" ? "" : worst);
+  return { ...found, titles: found.responses.map((one) => `${WORDS[one.response] ?? one.response}${where(one.response)}, ${one.unit}`), bare: found.responses.map((one) => one.without_counterweights) };
 }
 
 function picture({ points, titles, bare, whole }, chosen, click) {

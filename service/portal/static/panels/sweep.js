@@ -105,10 +105,11 @@ export const sweep = {
 
 const STATES = { queued: "Waiting", running: "Computing", done: "Done", failed: "Failed", cancelled: "Cancelled" };
 
-function tell({ state, done, total, failed, invalid, eta_s: eta, created_at: begun, message }, bar, status) {
+function tell({ state, done, total, failed, invalid, infeasible, eta_s: eta, created_at: begun, message }, bar, status) {
   bar.value = total ? done / total : 0;
   status.textContent = [`${STATES[state] ?? state}: ${figure(done)} of ${figure(total)} designs`,
-    failed ? `${figure(failed)} without a certified answer` : null,
+    infeasible ? `${figure(infeasible)} proven infeasible` : null,
+    failed > infeasible ? `${figure(failed - infeasible)} without a certified answer` : null,
     invalid ? `${figure(invalid)} invalid` : null,
     `asked for at ${new Date(begun).toLocaleTimeString()}`,
     eta ? `about ${Math.ceil(eta)} s left` : null, message].filter(Boolean).join(", ");
