@@ -111,8 +111,8 @@ def _shape(curve: Place) -> Claims:
     if not curve / "knee":
         yield "front", curve, ONE if deepest <= STRAIGHT * (1 + UNSURE) else -ONE, ONE
     else:
-        k = int((curve / "knee").double())
-        there = depths[k] if k in range(len(depths)) else -1.0
+        k = (curve / "knee").double()
+        there = depths[int(k)] if k in range(len(depths)) else -1.0
         yield "front", curve / "knee", ONE if there >= deepest - UNSURE and deepest > 0 else -ONE, ONE
 
 
