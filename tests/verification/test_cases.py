@@ -215,3 +215,14 @@ def test_masses_that_scatter_beside_a_root_mean_square_are_proven(goal: dict[str
         for term in terms:
             term["share"] = share
         assert is_broken(request, answer), share
+
+
+@pytest.mark.parametrize("fields", [("value",), ("limit",), ("value", "limit")])
+def test_an_earlier_goal_is_near_its_bound(fields: tuple[str, ...]) -> None:
+    """Regression: one that is far above its bound was held, and so was a limit by as much more."""
+    request, answer = pair("priorities of the first order")
+    goal = answer["certificate"]["goals"][0]
+    more = 0.01 * goal["value"]
+    for field in fields:
+        goal[field] += more
+    assert any(one.startswith("goals") for one in broken(request, answer))
