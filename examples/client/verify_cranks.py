@@ -29,7 +29,7 @@ def shares(design: Place) -> Dict[str, Dict[int, Number]]:
         away = [abs(at - place) for place in places]
         near = [t for t, distance in enumerate(away) if distance <= min(away) + TIE * extent]
         if named:
-            near = [int(named.double(least=0))]
+            near = [named.whole(least=0)]
             if near[0] >= len(places):
                 raise NotCovered(named)
         throws[name] = {t: real(1 / len(near)) for t in near}

@@ -40,6 +40,8 @@ class Term(NamedTuple):
     scalar: bool = False  # the real part alone counts
     mean: str = ""  # of a root mean square, the response
     still: Number = ZERO  # what it has beside the length, at a right angle to it
+    share: Number = ZERO  # of its row's multiplier, that of the length
+    pull: Number = ZERO  # what its multiplier pulls at scattered masses with, in any direction
 
 
 class Part:
@@ -135,7 +137,8 @@ class Part:
                 floor,
             )
         if kind == "bearing" and self.mean:
-            return self._mean(response, row, y)
+            # without a share the multiplier itself is the least that it can be
+            return self._mean(response, row, y)._replace(share=(cut / "share").number(0.0, least=0))
         weight, degrees = self.weights[kind] * ABOUT_ONE, (cut / "angle_deg").double()
         weight = over(weight, self.area[name], cut) if kind == "bearing" and self.specific else weight
         start, factors = self.turn.seen(response, degrees) * weight, self.at(response, degrees, weight)

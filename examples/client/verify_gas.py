@@ -197,7 +197,7 @@ def chambers(row: Place, stroke: float, ahead: float) -> Iterator[Chamber]:
 def _chamber(cylinder: Place, side: str, stroke: float, ahead: float) -> Chamber:
     area, record = _area(cylinder, side), cylinder / "pressure"
     if record / side:
-        turns = int((record / "cycle_turns").double(1.0))
+        turns = (record / "cycle_turns").whole(1.0)
         # else from the first outer dead centre of the row
         first = degrees(-ahead) % 360
         start = radians((record / "dead_centre_deg").double(0.0 if first > 360 - ROUNDED else first))

@@ -41,6 +41,8 @@ def levels(
             continue
         value, nothing = (most([item.goal(name) for item in side]) for side in (there, rest))
         yield from _goal(place, value, nothing, allowance)
+        if (answer / "status").value == "optimal" and not last and not _searched(proof):
+            yield from _closed(place, nothing, allowance)
         if name == named[-1]:
             yield from _bound(place, proof / "lower_bound", proof)
 
@@ -59,9 +61,23 @@ def _goal(place: Place, peak: Range, rest: Range, allowance: float) -> Claims:
     yield "goals", place / "value", ONE if above >= 0 else -ONE, ONE
 
 
+def _closed(place: Place, rest: Range, allowance: float) -> Claims:
+    """An earlier goal of an optimum: near its bound, above which the goals after it may use what is allowed."""
+    value, limit, lowest = ((place / name).double(0.0) for name in ("value", "limit", "lower_bound"))
+    if rest.low <= 0 or not place / "lower_bound":
+        return
+    off, most = WIDE * rest.high, max(allowance, ALLOWANCE) * rest.high
+    yield "goals", place / "value", ONE if value <= lowest + ALLOWANCE * rest.high + off else -ONE, ONE
+    yield "goals", place / "limit", ONE if limit <= max(value, lowest + most) + off else -ONE, ONE
+
+
+def _searched(proof: Place) -> bool:
+    return bool(proof / "nodes") or bool(proof / "continuous_lower_bound")
+
+
 def _bound(place: Place, own: Place, proof: Place) -> Claims:
     """Of what the certificate proves as well, where no choices were searched."""
-    searched = bool(proof / "nodes") or bool(proof / "continuous_lower_bound")
+    searched = _searched(proof)
     if place / "lower_bound":
         alike = own and (place / "lower_bound").double() == own.double()
         yield "goals", place / "lower_bound", None if searched else ONE if alike else -ONE, ONE

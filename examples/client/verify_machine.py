@@ -197,7 +197,7 @@ def _groups(place: Place) -> list[list[tuple[int, float, bool]]]:
             web = list(place / "webs")[k]
             at = (web / "position_m").double()
             near = min(range(len(throws)), key=lambda t: abs(throws[t][0] - at))
-            named = int((web / "throw").double(float(near))) if web / "throw" else near
+            named = (web / "throw").whole(float(near))
             if named >= len(throws):
                 raise NotCovered(web / "throw")
             groups[-1][n] = k, throws[named][1], mirrored

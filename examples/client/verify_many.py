@@ -71,6 +71,7 @@ def front(request: Place, answer: Place) -> Claims:
         machine = _machine(request, answer, budget)
         if uncertain(request):
             yield from worst_curve(request, machine, curve)
+            yield from _closed(request, curve)
             yield from _shape(curve)
             continue
         on_shafts = geared(design, machine, mirrored=True)
@@ -80,6 +81,7 @@ def front(request: Place, answer: Place) -> Claims:
             yield _scale(alone, curve / "scale" / f"{name}_{unit}")
         for entry in curve / "points":
             yield from covered(point(statement, request, curve / "scale", entry))
+        yield from _closed(request, curve)
         yield from _shape(curve)
         ends, implied = curve / "ends", curve / "implied_max_mass_kg"
         yield from covered(smallest(machine, goal, ends, ends / "multipliers", implied, on_shafts))
@@ -111,9 +113,18 @@ def _shape(curve: Place) -> Claims:
     if not curve / "knee":
         yield "front", curve, ONE if deepest <= STRAIGHT * (1 + UNSURE) else -ONE, ONE
     else:
-        k = int((curve / "knee").double())
-        there = depths[k] if k in range(len(depths)) else -1.0
+        k = (curve / "knee").double()
+        there = depths[int(k)] if k in range(len(depths)) else -1.0
         yield "front", curve / "knee", ONE if there >= deepest - UNSURE and deepest > 0 else -ONE, ONE
+
+
+def _closed(request: Place, curve: Place) -> Claims:
+    """A front is optimal only where both smallest peaks are as near to what is proven of them as its points are."""
+    accuracy = (request / "accuracy" / "relative_gap").number(usual_gap(request / "machine"), least=0)
+    for name, unit in NAMES.items() if (curve / "status").value == "optimal" else ():
+        smallest, bound = (curve / "ends" / f"smallest_{name}_{end}{unit}" for end in ("", "lower_bound_"))
+        peak, size = smallest.number(), (curve / "scale" / f"{name}_{unit}").number()
+        yield "status", bound, accuracy * size + SPECK * peak - (peak - bound.number()), size
 
 
 def _scale(statement: Statement, place: Place) -> Claim:

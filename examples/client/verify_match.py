@@ -50,7 +50,7 @@ def matching(request: Place, answer: Place) -> Claims:
         for row, mass in zip(kind.rows, kind.masses.values()):
             listed[row] += mass
     shown = list(answer / "rows")
-    places = [(int((row / "throw").double()), int((row / "row").double())) for row in shown]
+    places = [((row / "throw").double(), (row / "row").double()) for row in shown]
     yield "rows", answer / "rows", ONE if places == rows else -ONE, ONE
     own = [row for throw in design / "throws" for row in throw / "rows"]
     for entry, row, mine in zip(shown, places, own):
@@ -66,7 +66,7 @@ def _classes(request: Place, rows: List[Row]) -> Iterator[Parts]:
     for kind in request / "parts":
         names = [entry.text() for entry in kind / "names"]
         masses = [entry.double(least=0) for entry in kind / "masses_kg"]
-        taking = [(int((row / "throw").double()), int((row / "row").double())) for row in kind / "rows"]
+        taking = [((row / "throw").whole(), (row / "row").whole()) for row in kind / "rows"]
         if len({*names}) < len(names) or len(names) != len(masses) or not {*taking} <= {*rows}:
             raise Unreadable(kind.path, "names, masses and rows must go together")
         yield Parts((kind / "class").text(), dict(zip(names, masses)), taking or rows)
@@ -88,7 +88,7 @@ def _assigned(answer: Place, classes: Sequence[Parts], nuts: Dict[str, float], r
             key = (part / "class").text(), (part / "part").text()
             fit = key in left and (where == "assignments" or key[0] == NUT)
             if where == "assignments":
-                row = int((part / "throw").double()), int((part / "row").double())
+                row = (part / "throw").double(), (part / "row").double()
                 fit = fit and row in rows_of[key[0]]
                 for name in ("throw", "row"):
                     yield "assignments", part / name, ONE if fit else -ONE, ONE

@@ -113,7 +113,7 @@ class Program:
         if any(group_of[entry.row] != entry.group for entry in terms):
             raise NotCovered(proof / "terms")
         rows = {name: value for name, value in rows.items() if value.low > 0 and name in group_of}
-        rows, terms = _means(rows, terms)
+        rows, terms = _means(rows, terms, self.scattered)
         group_of = {entry.row: entry.group for entry in terms}
         sums = {group: total(value for name, value in rows.items() if group_of[name] == group)
                 for group in {group_of[name] for name in rows}}  # fmt: skip
@@ -162,7 +162,7 @@ class Program:
         y = term.y.parts()[0] if term.scalar else term.y
         size = abs(y)
         if self.scattered:
-            grown = (size if term.mean else allowed) * share
+            grown = (term.pull if term.mean else allowed) * share
             pulls.spread = [
                 old + grown * self.off.share * abs(factor) for old, factor in zip(pulls.spread, term.factors)
             ]
@@ -243,10 +243,11 @@ class Program:
         return dict.fromkeys(sums, share), charge * share
 
 
-def _means(rows: Dict[str, Number], terms: List[Term]) -> Tuple[Dict[str, Number], List[Term]]:
+def _means(rows: Dict[str, Number], terms: List[Term], scattered: bool) -> Tuple[Dict[str, Number], List[Term]]:
     """All rows of a root mean square as one, hypot(length, what stays), with y of the length and z of what stays.
 
-    y^2 + z^2 is no more than the square of the row: z is what y leaves of it.
+    y^2 + z^2 is no more than the square of the row: z is what y leaves of it. Scattered masses make the length longer
+    also where y is short: with any pull between y and the row, of which z is what is left.
     """
     together: Dict[Tuple[str, Group], List[Term]] = {}
     for term in terms:
@@ -255,9 +256,15 @@ def _means(rows: Dict[str, Number], terms: List[Term]) -> Tuple[Dict[str, Number
     result = [term for term in terms if not term.mean]
     rows = dict(rows)
     for (name, group), cuts in together.items():
-        allowed, y = total(rows.pop(term.row) for term in cuts), total(term.y for term in cuts)
-        left = root(largest(allowed * allowed - abs(y) * abs(y), ZERO))
+        allowed, y = total(rows[term.row] for term in cuts), total(term.y for term in cuts)
+        pull = abs(y)
+        if scattered:
+            pull = largest(pull, total(rows[term.row] * term.share for term in cuts))
+        for term in cuts:
+            del rows[term.row]
+        pull = Number(min(pull.low, allowed.low), min(pull.high, allowed.high))
+        left = root(largest(allowed * allowed - pull * pull, ZERO))
         of = f"{name} of {group}"
         rows[of] = allowed
-        result.append(cuts[0]._replace(row=of, y=y, floor=left / allowed * cuts[0].still))
+        result.append(cuts[0]._replace(row=of, y=y, pull=pull, floor=left / allowed * cuts[0].still))
     return rows, result

@@ -243,6 +243,13 @@ class Place:
             raise Unreadable(self.path, f"must be a finite number of at least {least:g}")
         return value
 
+    def whole(self, default: float | None = None, least: float = -inf) -> int:
+        """A whole number; a fraction of one is none."""
+        value = self.double(default, least)
+        if not value.is_integer():
+            raise Unreadable(self.path, "must be a whole number")
+        return int(value)
+
     def number(self, default: float | None = None, least: float = -inf) -> Number:
         return real(self.double(default, least))
 

@@ -101,7 +101,7 @@ class Pins:
             self.errors = [(pin / "eccentricity_error_m").double(0.0) for pin in entries]
             self.even = len(entries) == 1
         else:
-            count = int((place / "pin_count").double(least=1))
+            count = (place / "pin_count").whole(least=1)
             if count > _MOST:
                 raise NotCovered(place / "pin_count")
             self.phases = [360.0 * k / count for k in range(count)]

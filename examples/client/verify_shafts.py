@@ -44,7 +44,7 @@ def geared(design: Place, machine: Machine, mirrored: bool) -> List[Geared]:
     """All places of the balance shafts; those at -1 ``mirrored`` where the first order counts."""
     places = []
     for shaft in design / "balance_shafts":
-        ratio = int((shaft / "speed_ratio").double())
+        ratio = (shaft / "speed_ratio").whole()
         place = (shaft / "x_m").number(0.0) + J * (shaft / "y_m").number(0.0)
         for entry in shaft / "webs":
             web, back = web_of(entry, machine.fastest * real(ratio * ratio)), mirrored and ratio == -1

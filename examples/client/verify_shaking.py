@@ -85,7 +85,7 @@ def _wide(number: Number) -> Number:
 
 def _foundation(request: Place, machine: Machine, place: Place, there: Optional[Fitted]) -> Claims:
     """By order: amplitudes and phases."""
-    numbers = [int(entry.double()) for entry in request / "foundation_orders"] or [1, 2, 3, 4, 5, 6]
+    numbers = [entry.whole() for entry in request / "foundation_orders"] or [1, 2, 3, 4, 5, 6]
     entries = list(place)
     yield "foundation", place, ONE if len(entries) == len(numbers) else -ONE, ONE
     sides = dict(_shown(there))
@@ -168,7 +168,7 @@ def as_built(request: Place, machine: Machine) -> Fitted:
         turning.append(Mass(mass * radius, direction(angle), ZERO, web.position))
     on_shafts = []
     for shaft in request / "machine" / "balance_shafts":
-        ratio = int((shaft / "speed_ratio").double())
+        ratio = (shaft / "speed_ratio").whole()
         for place in shaft / "webs":
             web, entry = web_of(place, machine.fastest), entries.get((place / "name").text())
             product = (entry / "mass_kg").number() * web.radius if entry else ZERO

@@ -184,7 +184,7 @@ def shafts(machine: Machine, design: Place, place: Place) -> Claims:
     weights: List[Tuple[int, Mass]] = []
     mass = ZERO
     for shaft, entry in zip(design_shafts, entries):
-        ratio = int((shaft / "speed_ratio").double())
+        ratio = (shaft / "speed_ratio").whole()
         yield near("balance_shafts", entry / "speed_ratio", real(ratio))
         yield "balance_shafts", entry / "name", ONE, ONE
         webs = [web_of(web, machine.fastest * real(ratio * ratio)) for web in shaft / "webs"]

@@ -82,7 +82,7 @@ def pin_loads(request: PinLoadsRequest) -> PinLoadsAnswer:
         drive_bearing=drive,
         energy=pitch_energy(pattern, torque),
         comparison=None if request.comparison is None else compared(request.comparison, lever, pattern, torque, angle),
-        warnings=tuple(_warnings(pattern, contact, stuck)),
+        warnings=tuple(_warnings(pattern, contact, stuck, search=not (unbounded or _has_exact_peaks(pattern)))),
     )
 
 
@@ -122,7 +122,7 @@ def _compression_from(pattern: Pattern, torque: PeriodicTable) -> Real:
 
 def _peaks(pattern: Pattern, torque: PeriodicTable) -> tuple[Real, Real]:
     """Largest magnitudes (n,) N over the turn and their angles (n,) degrees."""
-    if not pattern.has_clearance and (pattern.formula or not pattern.dead_deg.size):
+    if _has_exact_peaks(pattern):
         return peaks(pattern.shapes(), torque)
 
     def size(angle_deg: Real) -> Real:
@@ -131,6 +131,11 @@ def _peaks(pattern: Pattern, torque: PeriodicTable) -> tuple[Real, Real]:
 
     # what errors strain at a dead point stands there alone: beside it the scroll turns until they do not
     return _refined_peaks(size, np.concatenate([np.arange(0.0, 360.0, _GRID_DEG), torque.angle_deg, pattern.dead_deg]))
+
+
+def _has_exact_peaks(pattern: Pattern) -> bool:
+    """Whether peaks have a closed form; a search on a grid may miss one that is narrower than its step."""
+    return not pattern.has_clearance and (pattern.formula or not pattern.dead_deg.size)
 
 
 def _refined_peaks(size: Callable[[Real], Real], grid_deg: Real) -> tuple[Real, Real]:
@@ -212,7 +217,8 @@ def _contact(pins: Real, contact: Contact, stuck: np.ndarray) -> PinContact:
     )
 
 
-def _warnings(pattern: Pattern, contact: Contact | None, stuck: np.ndarray) -> Iterator[PinWarning]:
+def _warnings(pattern: Pattern, contact: Contact | None, stuck: np.ndarray, search: bool) -> Iterator[PinWarning]:
+    """``search``: whether peaks come of one."""
     if pattern.count < 3 and pattern.dead_deg.size:
         message = f"{pattern.count} pin(s) have dead points; at least 3, not on one line, are needed"
         yield PinWarning(code="too_few_pins", message=message)
@@ -226,3 +232,9 @@ def _warnings(pattern: Pattern, contact: Contact | None, stuck: np.ndarray) -> I
         if np.any((contact.error_bound > 1e-6 * largest) & ~stuck):
             message = "the loads are certified to no more than contact.load_error_bound_N"
             yield PinWarning(code="not_converged", message=message)
+    if search:
+        message = (
+            f"peaks are the largest of samples every {_GRID_DEG:g} degrees, refined around the largest; what lies"
+            " between others is not certified"
+        )
+        yield PinWarning(code="peaks_not_certified", message=message)

@@ -34,7 +34,7 @@ class Term(NamedTuple):
     part: Part
     angle_deg: float | None = None  # of the shaft, where it is the response at one angle
     scenario: str | None = None  # whose response it is; None is the machine as it is given
-    share: float = 1.0  # of the response in the norm: in a root mean square, of what counterweights move
+    share: float | None = None  # of the response in the norm of a root mean square: of what counterweights move
 
 
 class Names(NamedTuple):

@@ -145,10 +145,12 @@ def fields_by_name(statement: Statement, multipliers: PhysicalMultipliers) -> di
                 "row": rows[row],
                 "angle_deg": term.angle_deg,
                 "scenario": term.scenario,
-                "x": y.real * term.share,
-                "y": y.imag * term.share,
+                "x": part.real,
+                "y": part.imag,
+                "share": term.share,
             }
             for term, row, y in zip(terms, statement.row.tolist(), multipliers.term.tolist(), strict=True)
+            for part in (y if term.share is None else y * term.share,)
         ],
         **_shared(rows, statement, multipliers),
     }

@@ -43,6 +43,14 @@ class TermMultiplier(Model):
         examples=[0.6],
     )
     y: float = Field(description="y component", examples=[-0.8])
+    share: float | None = Field(
+        None,
+        ge=0,
+        le=1,
+        description="of a root mean square: share of the row's multiplier that belongs to the part that counterweights"
+        " move, with which masses that scatter count; null elsewhere",
+        examples=[None],
+    )
 
 
 class RowMultiplier(Model):

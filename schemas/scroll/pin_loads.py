@@ -156,7 +156,8 @@ class PinLoad(Model):
         description="force on the scroll, positive along the eccentric; null at a dead point", examples=[[0.0, 2.91]]
     )
     peak_N: Newtons | None = Field(
-        description="largest magnitude over a revolution, between samples too; null where a dead point has no bound",
+        description="largest magnitude over a revolution, between samples too; null where a dead point has no bound;"
+        " with clearances, errors or dead points the largest that a search sees (warning peaks_not_certified)",
         examples=[166.67],
     )
     peak_angle_deg: Degrees | None = Field(description="first shaft angle of the peak", examples=[90.0])
@@ -235,7 +236,7 @@ class PitchEnergy(Model):
 class PinWarning(Model):
     """Something to know about the answer."""
 
-    code: Literal["too_few_pins", "uneven_load", "dead_points", "not_converged"] = Field(
+    code: Literal["too_few_pins", "uneven_load", "dead_points", "not_converged", "peaks_not_certified"] = Field(
         description="what it is about", examples=["too_few_pins"]
     )
     message: str = Field(description="the same in a sentence", examples=["at least 3 pins are needed"])

@@ -2,6 +2,7 @@
 
 import random
 from itertools import product
+from typing import Any
 
 import pytest
 
@@ -13,6 +14,7 @@ from tests.hard.cases.case import Body, four_webs, machine, row, throw, v_twin, 
 from tests.hard.random_bodies import body
 from tests.hard.random_features import FEATURES
 from tests.night import part
+from tests.pairs.asking import body_of
 from tests.studies.sweep.single import sweep
 from tests.verification.checking import optimized
 
@@ -67,3 +69,29 @@ def test_what_the_checker_once_refuted(number: int) -> None:
     # a price of the budget below a gain, a conflict proven for less than the reach (of both ceilings, and where one
     # alone is out of reach), a ceiling of 0 on nothing
     optimized(body(random.Random(f"0/{number}")))
+
+
+def _with_masses(node: Any, factor: float) -> Any:
+    """The same with all masses, and what is limited in newtons, times a factor."""
+    if isinstance(node, list):
+        return [_with_masses(each, factor) for each in node]
+    if not isinstance(node, dict):
+        return node
+    units = ("_kg", "_N", "_Nm")
+    return {
+        name: value * factor if isinstance(value, float | int) and name.endswith(units) else _with_masses(value, factor)
+        for name, value in node.items()
+    }
+
+
+@pytest.mark.parametrize(
+    "features",
+    [("bearings alone", "orders all"), ("combine max", "orders all"), ("bearing_ceiling_N slack", "priorities")],
+)
+def test_a_machine_of_any_masses_over_a_revolution(features: tuple[str, ...]) -> None:
+    """Regression, analytic: widths of what has no part in a goal overflowed; forces are as many times larger."""
+    body, factor = body_of("vee", features, 1.0), 2.0**40
+    answers = [optimized(body), optimized(_with_masses(body, factor))]
+    assert [answer.status for answer in answers] == ["optimal"] * 2
+    small, large = (answer.certificate.objective for answer in answers if answer.certificate is not None)
+    assert large == pytest.approx(factor * small, rel=1e-5)

@@ -15,11 +15,13 @@ _UNKNOWN = {"trades", "counts"}
 #: outputs of which the checker knows the form
 _KNOWN = ("hodograph", "orders", "foundation_loads", "stages")
 _OUTPUTS = {*OutputFields.model_fields} - {*_KNOWN}
+#: evidence without which no more than less is proven, as in answers of before
+_EVIDENCE = {"share"}
 
 
 def fields(model: type[BaseModel] = OptimizeAnswer, path: str = "") -> dict[str, tuple[str, ...]]:
     """Names of the fields of every object of an answer, by its place; `*` for all of a list."""
-    named = {name: field.alias or name for name, field in model.model_fields.items()}
+    named = {name: field.alias or name for name, field in model.model_fields.items() if name not in _EVIDENCE}
     found = {path: tuple(alias for name, alias in named.items() if path or name not in OutputFields.model_fields)}
     for name, field in model.model_fields.items():
         if path or name not in _OUTPUTS:

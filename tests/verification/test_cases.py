@@ -196,3 +196,33 @@ def test_no_goal_is_left_out_or_out_of_order(places: tuple[int, ...]) -> None:
     goals = answer["certificate"]["goals"]
     answer["certificate"]["goals"] = [goals[k] for k in places]
     assert verdict(request, answer) in ("broken", "not covered")
+
+
+@pytest.mark.parametrize("goal", part(2, [{"force_weight": 0.0, "moment_weight": 0.0}, {}]))
+def test_masses_that_scatter_beside_a_root_mean_square_are_proven(goal: dict[str, float]) -> None:
+    """Regression: where multipliers of the mean cancel, what scatters is still pulled at; bounds were called broken."""
+    request = body_of("twin", ("bearing rms",), 1.0)
+    request["objective"].update(goal)
+    request["tolerances"] = {"mass_relative": 0.1}
+    answer = json.loads(optimize(OptimizeRequest.model_validate(request)).model_dump_json())
+    assert not broken(request, answer)
+    certificate = answer["certificate"]
+    terms = certificate["multipliers"]["objective"]["terms"]
+    certificate["lower_bound"] += 1.5 * certificate["gap"]
+    assert is_broken(request, answer)
+    # whatever is said of the share, no more than what holds is proven with it
+    for share in (0.0, 0.5, 1.0, 1e300):
+        for term in terms:
+            term["share"] = share
+        assert is_broken(request, answer), share
+
+
+@pytest.mark.parametrize("fields", [("value",), ("limit",), ("value", "limit")])
+def test_an_earlier_goal_is_near_its_bound(fields: tuple[str, ...]) -> None:
+    """Regression: one that is far above its bound was held, and so was a limit by as much more."""
+    request, answer = pair("priorities of the first order")
+    goal = answer["certificate"]["goals"][0]
+    more = 0.01 * goal["value"]
+    for field in fields:
+        goal[field] += more
+    assert any(one.startswith("goals") for one in broken(request, answer))

@@ -233,6 +233,28 @@ def test_orders_of_cranks(angles: list[Any]) -> None:
     assert verdict(body | {"angles_deg": [0.0, 33.0]}, swept(body)) == "broken"
 
 
+@pytest.mark.parametrize("factor", [1.001, 0.999, 2.0, -1.0])
+def test_the_knee_of_a_front_is_the_number_of_a_point(factor: float) -> None:
+    """Regression: the fraction of a number was cut off."""
+    request, answer = pair("front")
+    assert answer["fronts"][0]["knee"] > 0
+    answer["fronts"][0]["knee"] *= factor
+    assert any(one.startswith("front") for one in broken(request, answer))
+
+
+@pytest.mark.parametrize("tolerances", [None, {"mass_relative": 0.02}])
+def test_a_front_is_optimal_only_where_its_ends_are_closed(tolerances: dict[str, float] | None) -> None:
+    """Regression: a smallest peak of which nothing was proven was held in an optimal front."""
+    body = {**SINGLE["budget and ceiling"], "points": 2, "multipliers": True, "tolerances": tolerances}
+    answer = json.loads(pareto(ParetoRequest.model_validate(body)).model_dump_json())
+    assert not broken(body, answer)
+    for field in ("smallest_force_lower_bound_N", "smallest_moment_lower_bound_Nm"):
+        ends = answer["fronts"][0]["ends"]
+        right, ends[field] = ends[field], 0.0
+        assert is_broken(body, answer), field
+        ends[field] = right
+
+
 @pytest.mark.parametrize("budget", [0.0, 5.0])
 def test_a_budget_of_a_front_that_nobody_asked_for_is_broken(budget: float) -> None:
     """Regression: one of 0 kg was held."""

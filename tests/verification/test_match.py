@@ -44,6 +44,15 @@ def test_a_fixed_weight_is_on_its_web_whatever_is_listed() -> None:
     assert checker().verify(sent, answer)["verdict"] == "broken"
 
 
+@pytest.mark.parametrize(("where", "field"), [("assignments", "throw"), ("rows", "throw")])
+def test_a_row_is_named_by_whole_numbers(files: tuple[Answer, Answer], where: str, field: str) -> None:
+    """Regression: the fraction of a number was cut off."""
+    request, answer = files[0], copy.deepcopy(files[1])
+    entry = next(each for each in answer[where] if each[field])
+    entry[field] *= 1.001
+    assert checker().verify(request, answer)["verdict"] == "broken"
+
+
 def swap_names(answer: Answer) -> None:
     first, second = answer["assignments"][:2]
     first["part"], second["part"] = second["part"], first["part"]

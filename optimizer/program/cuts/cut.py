@@ -45,7 +45,7 @@ class Cut(NamedTuple):
     floor: float = 0.0
     angle_deg: float | None = None  # of the shaft, where the cut belongs to one
     scalar: bool = False
-    share: float = 1.0  # constant and influence are the response's times this
+    share: float | None = None  # of a root mean square: constant and influence are the response's times this
 
     def at(self, u: Complex, scatter: Scatter) -> float:
         """What it comes to with an unbalance (K,)."""

@@ -39,7 +39,8 @@ def spare(groups: Sequence[Group], about: Real) -> Real:
         for member in group.weighed:
             room = (level - member.offset) / member.weight - sizes[member.quantity]
             left[member.quantity] = min(left[member.quantity], room)
-    return np.clip(_SHARE * np.array(left) / np.maximum(about, _TINY), 0.0, _SHARE)
+    size = np.maximum(about, _TINY)
+    return _SHARE * (np.clip(left, 0.0, size) / size)
 
 
 def deciding(groups: Sequence[Group], evaluations: Sequence[Evaluation]) -> np.ndarray:

@@ -193,7 +193,10 @@ class Samples:
         for q, quantity in enumerate(self.quantities):
             if quantity.measure == "rms":
                 mean, off, influence = quantity.response.mean, quantity.response.rms_error, quantity.response.influence
-                cuts[q] = [Cut(0j, 0.0 * influence, quantity.spread - off, share=0.0), Cut(mean, influence, -off)]
+                cuts[q] = [
+                    Cut(0j, 0.0 * influence, quantity.spread - off, share=0.0),
+                    Cut(mean, influence, -off, share=1.0),
+                ]
         for numbers, curves in self._curves:
             support = curves.supports()
             for n, angle, value in zip(

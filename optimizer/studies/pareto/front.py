@@ -16,7 +16,7 @@ from optimizer.program.ceilings import CEILING_TOLERANCE
 from optimizer.program.certificate import Multipliers, ceiling_allowance, normalised, nothing_proven
 from optimizer.program.methods.implied_bounds import within_reach
 from optimizer.program.methods.rounding import has_dust
-from optimizer.program.solution import OPTIMUM_SHARE, ConeSolution
+from optimizer.program.solution import OPTIMUM_SHARE, ConeSolution, evaluated
 from optimizer.program.statement import Statement
 from optimizer.program.verdict import MASS_GAP
 from optimizer.studies.pareto.trade import Trade
@@ -28,12 +28,15 @@ _NARROW = 1e-9
 #: at an end the peak that counts first may exceed its smallest value by this share of the asked gap, without which
 #: nothing could be proven about the other
 _END_SLACK = 0.1
+#: the same where counterweights scatter, or in several scenarios: a front is straight there, and where it ends with
+#: none the other peak falls by many times what this one rises by
+_BENT_SLACK = 0.02
 #: the least mass at an end may give away this part of what it may elsewhere
 _END_SHARE = 0.3
 #: share of the range within which an end stays that is sought again
 _NEAR_END = 1e-3
 #: most lines that find an end
-_END_STEPS = 12
+_END_STEPS = 24
 #: share of the corner's last rise that is little gained by the next line, and by which lines are then steeper
 _SLOW, _STEEPER = 0.5, 0.25
 #: parts of the asked share of t, each tried where the least mass could not be certified with the one before
@@ -280,12 +283,13 @@ def _end(
     peak may rise by next to nothing along a straight front: there lines become steeper, as corners hardly move.
     """
     second = 1 - first
+    slack, part = (_BENT_SLACK, _END_SHARE) if trade.bent else (_END_SLACK, 1.0)
     unit = size * np.where(np.arange(2) == first, np.sqrt(share), 1.0)
-    anchor = ideal + size * np.where(np.arange(2) == first, _END_SLACK * share, 0.0)
+    anchor = ideal + size * np.where(np.arange(2) == first, slack * share, 0.0)
     # at the anchor it is the other peak alone that is too small
     peaks, corners, last = [], [(anchor, proofs[second])], np.inf
     for _ in range(_END_STEPS):
-        point = _meet(trade, anchor, unit, False, share)
+        point = _meet(trade, anchor, unit, False, part * share)
         peaks.append(trade.peaks(point.solution.unbalance))
         if point.corner[first] > ideal[first]:
             corners.append((point.corner, point.proof))
@@ -329,6 +333,9 @@ def _at_end(trade: Trade, end: _End, span: Real, size: Real, share: float, least
         result = _meet(trade, end.peaks, unit, least_mass, _END_SHARE * share)
         return replace(result, corner=end.corner, proof=end.proof)
 
+    nothing = _without(trade, end, least_mass)
+    if nothing is not None and np.all(trade.at_rest - end.corner <= share * size):
+        return nothing
     point = nearest(span)
     if not has_dust(limits, point.solution.unbalance):
         return point
@@ -336,6 +343,19 @@ def _at_end(trade: Trade, end: _End, span: Real, size: Real, share: float, least
     peaks = trade.peaks(rival.solution.unbalance)
     close = np.all(np.abs(peaks - end.peaks) <= _NEAR_END * span) and np.all(peaks - end.corner <= share * size)
     return rival if close and not has_dust(limits, rival.solution.unbalance) else point
+
+
+def _without(trade: Trade, end: _End, least_mass: bool) -> FrontPoint | None:
+    """No counterweights, where they scatter: of a few grams the least mass is the difference of peaks all but equal.
+
+    None where they do not scatter, or where ceilings need some.
+    """
+    nothing = np.zeros(trade.minimax.limits.radius.shape, complex)
+    solution = evaluated(trade.minimax, nothing)
+    if not (trade.minimax.norms.scatter and solution.keeps_ceilings):
+        return None
+    of_mass = nothing_proven(trade.minimax) if least_mass else None
+    return FrontPoint(solution, end.corner, end.proof, of_mass, trade.at_rest)
 
 
 def _spread(trade: Trade, start: Real, step: Real, count: int, share: float) -> Real:

@@ -10,6 +10,7 @@ from pydantic import ValidationError
 from optimizer.studies.pareto.choice_search import ChoicePoint, ChoiceSearch
 from optimizer.studies.pareto.pareto import pareto
 from schemas.front.pareto import ParetoFront, ParetoRequest
+from tests.hard.bodies import drawn
 from tests.hard.cases.case import Body
 from tests.studies.pareto.test_counts import Sets, body, every_set
 from tests.verification.checking import optimized
@@ -45,9 +46,21 @@ def shown(made: ParetoFront) -> np.ndarray:
     return np.array([(point.weighted_force_peak_N, point.weighted_moment_peak_Nm) for point in made.points])
 
 
+def ends_are_closed(made: ParetoFront, gap: float) -> None:
+    """Both smallest peaks are within a gap of what is proven of them."""
+    ends, scale = made.ends, made.scale
+    assert ends is not None
+    assert scale is not None
+    assert ends.smallest_force_N - ends.smallest_force_lower_bound_N <= gap * scale.force_N
+    assert ends.smallest_moment_Nm - ends.smallest_moment_lower_bound_Nm <= gap * scale.moment_Nm
+
+
 def nothing_is_below(made: ParetoFront, sets: Sets, among: np.ndarray | None = None) -> None:
     """No set is below a corner in both peaks, and every point is within the asked gap of its own."""
     some = np.ones(sets.force.size, bool) if among is None else among
+    if made.status == "optimal":
+        # regression: the share that is left to the other peak was added to the gap
+        ends_are_closed(made, 1e-6)
     for point in made.points:
         proof = point.certificate
         assert proof.force_N is not None
@@ -244,3 +257,12 @@ def test_a_gap_wider_than_requested_on_the_scale_of_the_front_is_no_optimum(monk
     assert made.status == "inaccurate"
     assert {point.status for point in made.points} == {"inaccurate"}
     assert all("wider than requested" in point.status_reason for point in made.points)
+
+
+def test_ends_of_plates_are_as_near_to_their_bounds_as_points_are() -> None:
+    """Regression: what is left to the other peak at an end was not within the gap, but beside it."""
+    sent = drawn(428, 77, "plates")
+    request = {"machine": sent["machine"], "objective": sent["objective"], "points": 2, "accuracy": sent["accuracy"]}
+    made = front(request)
+    assert made.status == "optimal"
+    ends_are_closed(made, sent["accuracy"]["relative_gap"])

@@ -11,6 +11,7 @@ from hypothesis import strategies as st
 
 from schemas.front.pareto import ParetoRequest
 from service.common.validation import InvalidRequest, check
+from service.documents.examples import bodies
 from service.verification import checker
 from tests.hard_turn.machines import twin
 from tests.night import part
@@ -18,6 +19,7 @@ from tests.optimize.machines import machine, random_machine, throw, web
 from tests.optimize.robust import answered, worst
 from tests.studies.pareto.cases import OMEGA_SQUARED, ask, below_a_corner, front, single_row, straight, traded
 
+EXAMPLES = bodies("")
 SEEDS = st.integers(0, 10_000)
 MACHINES = settings(max_examples=settings.default.max_examples // 6, deadline=None)
 #: 2 % of the mass and 2 degrees: the farthest corner of the sector of a ring from its middle (docs/mathematics.md, 15)
@@ -190,6 +192,31 @@ def test_a_point_of_named_responses_is_the_best_worst_case_of_its_mass(
     assert value == pytest.approx(best.certificate.objective, abs=3e-6 * result.responses[0].yardstick)
     assert result.points[1].nominal_values is not None
     assert result.points[1].nominal_values[0] < value
+
+
+@pytest.mark.parametrize(
+    ("name", "tolerances"),
+    part(
+        2,
+        [
+            # ends with nothing fitted: a few milligrams were not proven to be the minimum
+            ("single-horizontal", OFF),
+            ("v8-cross-plane", {"mass_relative": 0.9}),
+            # a moment of 78 times that without counterweights, and lines that were too few or too coarse
+            ("scroll-three-pins", {"mass_relative": 0.9}),
+            ("single-balance-shaft", {"mass_relative": 0.9}),
+        ],
+        rows=True,
+    ),
+)
+def test_ends_of_next_to_no_counterweights_are_certified(name: str, tolerances: dict[str, float]) -> None:
+    """Regression: a point of the front, or the front, was inaccurate."""
+    body = EXAMPLES[name]["machine"]
+    answer = ask(body, points=3, tolerances=tolerances)
+    assert answer.status == "optimal"
+    assert len(answer.fronts[0].points) == 3
+    sent = {"machine": body, "points": 3, "tolerances": tolerances}
+    assert verdict(sent, answer)["verdict"] != "broken"
 
 
 @pytest.mark.parametrize(
