@@ -99,7 +99,7 @@ class RowSeries:
             place = slice(first, last)
             some = _flat(centre[:, place])
             places = entry.Places(
-                np.repeat(design, last - first),
+                design.repeat(last - first),
                 some,
                 NO_WIDTHS if half is None else _flat(half[:, place]),
                 some if within is centre else _flat(within[:, place]),
