@@ -12,7 +12,7 @@ from optimizer.numerics.compiling import inner, inner_with_arrays
 from optimizer.numerics.kernel.circle import length, smallest
 
 #: at which the cubic of every piece is looked at
-PLACES = np.linspace(-1.0, 1.0, 5)
+PLACES = np.linspace(-1.0, 1.0, 17)
 #: how far the farthest places may be from these
 BETWEEN = float(PLACES[1] - PLACES[0])
 #: share of the largest distance by which others that may hold a circle are less
