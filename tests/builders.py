@@ -186,7 +186,7 @@ def all_stages(
 ) -> tuple[Stage, ...]:
     """The eight stages of a machine, from its own inertia forces."""
     parts = rotating(arrays), reciprocating(arrays, 1), reciprocating(arrays, 2, harmonic)
-    return stages(arrays, *parts, unbalance)
+    return tuple(map(Stage.of_figures, stages(arrays, *parts, unbalance)))
 
 
 def ellipse(phasors: Phasors) -> Ellipse:

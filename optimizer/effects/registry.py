@@ -18,7 +18,6 @@ from optimizer.mechanics.layout import Layout
 from optimizer.mechanics.row_series import Reading
 from optimizer.numerics.arrays import Real
 from optimizer.numerics.memoization import cached_property, remembered
-from schemas.answer.answers import EffectUse
 from schemas.base.model import FieldProblem
 from schemas.base.rules import Rule
 from schemas.machine.machine import Machine
@@ -27,8 +26,8 @@ from schemas.request.scene import Fidelity
 #: every effect; each stands after those that it needs
 EFFECTS: dict[str, Effect] = {effect.name: effect for effect in (*INERTIA, *DYNAMICS, *SCROLL)}
 
-
-_UNUSED = EffectUse(simulated=False, needed_by=(), time_ms=0.0)
+#: fields of the use of an effect (:class:`schemas.answer.answers.EffectUse`) that did not run
+_UNUSED = {"simulated": False, "needed_by": (), "time_ms": 0.0}
 
 
 def closure(machine: Machine, needs: Sequence[str]) -> list[str]:
@@ -148,10 +147,10 @@ class Simulated:
         self._need([*other.times_ms], purpose)
 
     @property
-    def uses(self) -> dict[str, EffectUse]:
-        """Every effect: whether it was simulated, for what, and how long it took."""
+    def uses(self) -> dict[str, dict[str, Any]]:
+        """Every effect: whether it was simulated, for what, and how long it took, as fields."""
         return dict.fromkeys(EFFECTS, _UNUSED) | {
-            name: EffectUse.of_figures({"simulated": True, "needed_by": self.needed_by[name], "time_ms": time_ms})
+            name: {"simulated": True, "needed_by": self.needed_by[name], "time_ms": time_ms}
             for name, time_ms in self.times_ms.items()
         }
 

@@ -133,7 +133,7 @@ def bending_moment(bearing: Real, reaction: Complex, position: Real, load: Compl
 def unit_bending_moment(bearing: Real, reaction: Real, position: Real, station: Real) -> Real:
     """The same for one unit of load in every plane (..., S, L) m, of which bearings have (..., B, L)."""
     largest = np.maximum.reduce(np.abs(reaction), axis=-1)
-    of_bearings, of_loads = _arms(bearing, position, station, largest, np.ones(np.shape(position)))
+    of_bearings, of_loads = _arms(bearing, position, station, largest, np.ones(position.shape))
     # what is no load adds nothing
     return of_bearings @ reaction - of_loads
 

@@ -10,7 +10,7 @@ import numpy as np
 
 from optimizer.mechanics.curve_series import CurveSeries
 from optimizer.mechanics.whole_turn import TurnCurves
-from optimizer.numerics.arrays import Complex, Real, spread
+from optimizer.numerics.arrays import Complex, Real
 from optimizer.numerics.memoization import cached_property
 from optimizer.numerics.records import record
 from optimizer.responses.floors import Floors
@@ -37,7 +37,7 @@ class CurveBatch:
         """The curves piece by piece (J, P)."""
         turn = self.parts[0].whole
         cubic, rest, size = self._series.over(turn.points, turn.bounds, turn.half)
-        centre, half = (spread(array, rest.shape) for array in (turn.centre, turn.half))
+        centre, half = (array.repeat(len(rest), axis=0) for array in (turn.centre, turn.half))
         pieces = Pieces(centre, half, cubic, rest, size, source=self)
         for part, ends in zip(self.parts, pairwise(self.first.tolist()), strict=True):
             part.take(pieces, slice(*ends))

@@ -22,6 +22,9 @@ from optimizer.numerics.arrays import Real, in_order, mapped, spread
 from optimizer.numerics.memoization import cached_property, remembered, remembered_of_pair
 from optimizer.numerics.records import record
 
+#: own crank angles of the outer and the inner dead centre, rad
+_DEAD_CENTRES = np.array([0.0, np.pi])
+
 
 @record(frozen=True)
 class Chambers:
@@ -82,6 +85,24 @@ def gas_forces(chambers: Chambers, motion: Motion, layout: Layout, traces: Seque
     for trace in traces:
         pressure[..., trace.row, trace.side, :], _ = trace.at(motion.crank_angle[..., trace.row, :])
     return GasForces(pressure, chambers.area)
+
+
+def forces_at_dead_centres(chambers: Chambers, traces: Sequence[Trace] = ()) -> Real:
+    """Gas forces of the rows at their own outer and inner dead centres, (..., rows, 2) N.
+
+    There a chamber is at its smallest and ends its discharge, or at its largest and ends its suction (design
+    calculation of the 2D12, 2-10..2-13).
+
+    Parameters
+    ----------
+    traces : pressures of chambers, in place of these.
+    """
+    low, high = chambers.suction, np.where(chambers.closed, chambers.discharge, chambers.suction)
+    heads = head_sides(chambers.area)
+    pressure = np.stack([np.where(heads, high, low), np.where(heads, low, high)], axis=-1)
+    for trace in traces:
+        pressure[..., trace.row, trace.side, :], _ = trace.at(_DEAD_CENTRES)
+    return GasForces(pressure, chambers.area).total
 
 
 @cache

@@ -26,7 +26,7 @@ def internal_moment(layout: Layout, unbalance: Complex | None = None) -> Real:
         webs = (layout.webs.position, unbalance, 0.0)
         place, force = _side_by_side([(place, force[..., 0, :], force[..., 1, :]), webs])
     arm = place - np.asarray(layout.centre_plane)[..., None]
-    order = np.argsort(arm, axis=-1)
+    order = arm.argsort(axis=-1)
     if order.ndim == 1:
         return np.asarray(_largest_of_few(arm[order].tolist(), *force[:, order].tolist()))
     arm = np.take_along_axis(arm, order, axis=-1)

@@ -99,7 +99,7 @@ class RowSeries:
             place = slice(first, last)
             about = _flat(centre[:, place])
             places = entry.Places(
-                np.repeat(design, last - first),
+                design.repeat(last - first),
                 about,
                 NO_WIDTHS if half is None else _flat(half[:, place]),
                 about if within is centre else _flat(within[:, place]),

@@ -251,7 +251,7 @@ class TurnCurves:
             cubic, rest, size = self._series.over(whole.points, whole.bounds, whole.half)
         else:
             cubic, rest, size = self._series.of_forces(whole.forces.of(self.reading), ORDER, whole.half)
-        centre, half = (np.repeat(array, self.weights.shape[1], axis=0) for array in (whole.centre, whole.half))
+        centre, half = (array.repeat(self.weights.shape[1], axis=0) for array in (whole.centre, whole.half))
         return Pieces(centre, half, cubic, rest, size, source=self)
 
     @cached_property

@@ -61,7 +61,7 @@ def main_bearings(scene: Prepared, unbalance: Complex | None) -> MainBearings:
                 "peak_Nm": bending.lower[worst],
                 "peak_bracket_Nm": (bending.lower[worst], max(bending.upper)),
                 "peak_position_m": planes[worst],
-                "floor_Nm": float(np.max(fixed.radius[count:])) * scene.omega_squared,
+                "floor_Nm": max(fixed.radius[count:].tolist()) * scene.omega_squared,
             },
         }
     )

@@ -5,6 +5,8 @@ from collections.abc import Iterator, Mapping, Sequence
 from itertools import chain
 from typing import NamedTuple
 
+import numpy as np
+
 from optimizer.effects.inertia import FIRST_ORDER_EFFECTS
 from optimizer.formulation.formulate import RESPONSES
 from optimizer.formulation.simulation import Prepared
@@ -13,7 +15,7 @@ from optimizer.mechanics.balance_shafts import shaft_arms
 from optimizer.mechanics.frame import phasors
 from optimizer.mechanics.inertia import Wrench
 from optimizer.mechanics.layout import Layout
-from optimizer.numerics.arrays import Complex, Real
+from optimizer.numerics.arrays import Complex, Real, read_only
 from optimizer.outputs.ellipses import PolarPair, magnitudes
 from optimizer.outputs.output import Columns, Output
 from optimizer.outputs.phasors import PlainWrench, PolarWrench, polar_wrenches, vectors_of
@@ -21,6 +23,7 @@ from optimizer.responses.response import Phasors
 from schemas.answer.first_order import FirstOrder, Floor, Residual, ResponseChange, ResponsePeak
 from schemas.answer.outputs import Hodographs, Order
 from schemas.answer.proof import BoundMultipliers
+from schemas.base.curves import Curve
 from schemas.base.responses import PAIR
 
 
@@ -35,6 +38,8 @@ class _Names(NamedTuple):
     counter_rotating: str
 
 
+#: of force and moment over the turn
+_HODOGRAPH = ("force_x_N", "force_y_N", "moment_x_Nm", "moment_y_Nm")
 #: of force and moment
 _FIELDS = tuple(_Names._make(f"{name}_{unit}" for name in _Names._fields) for unit in ("N", "Nm"))
 
@@ -154,24 +159,14 @@ def hodographs(scene: Prepared, unbalance: Complex | None) -> Hodographs:
     # force and moment of each, all at once
     vectors = vectors_of(wrenches)
     curves = Phasors(vectors[..., 0], vectors[..., 1]).of_rotation(unit)
+    parts = Curve.rows(read_only(np.stack([curves.real, curves.imag], axis=2)))
     return Hodographs.of_figures(
         {
             "angle_deg": scene.angles if scene.turns == 1 else scene.first_turn_deg,
-            "before": _hodograph(curves[0]),
-            "after": _hodograph(curves[1]) if len(curves) > 1 else None,
+            "before": dict(zip(_HODOGRAPH, parts[:4], strict=True)),
+            "after": dict(zip(_HODOGRAPH, parts[4:], strict=True)) if len(wrenches) > 1 else None,
         }
     )
-
-
-def _hodograph(curves: Complex) -> dict[str, Real]:
-    """Force [N] and moment [N m] over the turn (2, n)."""
-    force, moment = curves[0], curves[1]
-    return {
-        "force_x_N": force.real,
-        "force_y_N": force.imag,
-        "moment_x_Nm": moment.real,
-        "moment_y_Nm": moment.imag,
-    }
 
 
 def _ellipses(wrenches: Sequence[PolarWrench]) -> list[dict[str, dict[str, float]]]:

@@ -17,7 +17,6 @@ from optimizer.outputs.orders import ORDERS
 from optimizer.outputs.output import Output
 from optimizer.outputs.phasors import vectors_of
 from optimizer.responses.response import Phasors
-from schemas.answer.foundation import OrderOfFoundation
 from schemas.machine.machine import Machine
 from schemas.machine.reciprocating import ReciprocatingMachine
 from schemas.request.requests import OptimizeRequest
@@ -27,8 +26,8 @@ _NOTHING = Wrench(*(Phasors(np.zeros((), complex), np.zeros((), complex)) for _ 
 _UNITS = {"force_x": "N", "force_y": "N", "couple_of_x_forces": "Nm", "couple_of_y_forces": "Nm"}
 
 
-def foundation_loads(scene: Prepared, unbalance: Complex | None) -> tuple[OrderOfFoundation, ...]:
-    """Loads of the orders of a request, one machine."""
+def foundation_loads(scene: Prepared, unbalance: Complex | None) -> tuple[dict[str, Any], ...]:
+    """Loads of the orders of a request, one machine: fields of :class:`schemas.answer.foundation.OrderOfFoundation`."""
     sets: dict[str, tuple[Prepared, Complex | None]] = {"before": (scene, None)}
     if unbalance is not None:
         sets["after"] = (scene, unbalance)
@@ -38,9 +37,7 @@ def foundation_loads(scene: Prepared, unbalance: Complex | None) -> tuple[OrderO
     reference = dead_centre_deg(scene.machine)
     of_sets = dict(zip(sets, _loads(scene, list(sets.values()), reference), strict=True))
     return tuple(
-        OrderOfFoundation.of_figures(
-            {"order": order, "dead_centre_deg": reference, **{name: loads[order] for name, loads in of_sets.items()}}
-        )
+        {"order": order, "dead_centre_deg": reference, **{name: loads[order] for name, loads in of_sets.items()}}
         for order in scene.request.foundation_orders
     )
 

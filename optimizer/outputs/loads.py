@@ -9,14 +9,13 @@ from optimizer.effects.machine_kinds import reciprocating
 from optimizer.effects.results import GasCycle
 from optimizer.formulation.simulation import Prepared
 from optimizer.mechanics.angles import direction
-from optimizer.mechanics.gas import gas_forces
-from optimizer.mechanics.kinematics import angle_ahead, motion
+from optimizer.mechanics.gas import forces_at_dead_centres
 from optimizer.mechanics.layout import stacked, web_radii
 from optimizer.mechanics.row_series import Reading
 from optimizer.mechanics.shaft import INFLUENCES, bearing_places
 from optimizer.mechanics.shapes import plates
 from optimizer.mechanics.weight import GRAVITY, along_axis, on_guide
-from optimizer.numerics.arrays import Complex, Real, side_by_side
+from optimizer.numerics.arrays import Complex, Real, side_by_side, spread
 from optimizer.outputs.output import Columns, Output
 from optimizer.outputs.peaks import (
     Search,
@@ -113,12 +112,7 @@ def at_dead_centres(scene: Prepared) -> Real:
     masses = scene.layout.reciprocating.mass
     if cycle is None:
         return np.zeros((*masses.shape, 2))
-    ahead = angle_ahead(scene.layout)
-    angle = np.concatenate([-ahead, np.pi - ahead], axis=-1)
-    total = gas_forces(cycle.chambers, motion(scene.layout, angle), scene.layout, cycle.traces).total
-    count = masses.shape[-1]
-    rows = np.arange(count)
-    return np.stack([total[..., rows, rows], total[..., rows, count + rows]], axis=-1)
+    return spread(forces_at_dead_centres(cycle.chambers, cycle.traces), (*masses.shape, 2))
 
 
 def _covers(scene: Prepared) -> list[list[dict[str, Any]]]:

@@ -77,13 +77,13 @@ def search(scene: Prepared, searches: Iterable[Search]) -> None:
     ends = [0, *accumulate(counts)]
     # of all at once: small arrays cost by their number
     number = np.concatenate([item.number for item in every])
-    number += np.repeat([first[id(item.curves)] for item in every], sizes)
+    number += np.array([first[id(item.curves)] for item in every]).repeat(sizes)
     offset = np.concatenate([item.offset for item in every])
     sign = np.concatenate([item.sign for item in every])
     group = np.concatenate([_numbers(item.number.size) if item.group is None else item.group for item in every])
-    group += np.repeat(ends[:-1], sizes)
+    group += np.array(ends[:-1]).repeat(sizes)
     angle, value, lower, upper = batch.pieces.peaks(offset, TOLERANCE, number, group, sign)
-    scale = np.repeat([item.scale for item in every], counts)
+    scale = np.array([item.scale for item in every]).repeat(counts)
     rows = {item.name: slice(*own) for item, own in zip(every, pairwise(ends), strict=True)}
     scene.peaks.add(rows, Bracket(_within_turns(scene, angle), value, lower * scale, upper * scale))
 
@@ -213,7 +213,7 @@ def shaft_search(scene: Prepared, unbalances: Sequence[Complex | None]) -> Searc
     curves = scene.shaft_curves
     count, sets = curves.curves.weights.shape[1], len(unbalances)
     offset = np.concatenate([curves.offsets(unbalance) for unbalance in unbalances])
-    number = np.tile(_numbers(count), sets)
+    number = np.concatenate([_numbers(count)] * sets)
     return Search(_SHAFT, curves.curves, number, offset, unsigned(count * sets), scale=scene.omega_squared)
 
 

@@ -14,7 +14,7 @@ two planes, iron shared out in this way exists. Balance shafts at twice the spee
 """
 
 from collections.abc import Sequence
-from typing import Literal, NamedTuple
+from typing import Any, Literal, NamedTuple
 
 import numpy as np
 
@@ -37,7 +37,7 @@ from optimizer.outputs.stage_parts import (
     superposed,
 )
 from optimizer.responses.response import Phasors
-from schemas.answer.outputs import STAGE_UNITS, Stage
+from schemas.answer.outputs import STAGE_UNITS
 
 Balanceable = Literal["fully", "partly", "no"]
 
@@ -67,8 +67,8 @@ def stages(
     second: Wrench,
     unbalance: Complex | None,
     shafts: Complex | None = None,
-) -> tuple[Stage, ...]:
-    """Stages I to VIII of one machine.
+) -> tuple[dict[str, Any], ...]:
+    """Stages I to VIII of one machine: fields of :class:`schemas.answer.outputs.Stage`.
 
     Parameters
     ----------
@@ -118,23 +118,20 @@ def stages(
     shapes.append(_summary(of_all, all_left, scale, speed))
     in_planes = iron(planes, centre, rotating, moving)
     rules = {STAGE_III: force_rules(of_force, square), STAGE_IV: moment_rules(of_moment, square, high - low)}
-    # one validation of a stage takes two thirds of the time of one of each part
     return tuple(
         [
-            Stage.of_figures(
-                {
-                    **WORDS[k],
-                    "plane": shape.plane,
-                    "frequency": shape.frequency,
-                    "balanceable": shape.balanceable,
-                    "value": value[k],
-                    "remaining": remaining[k],
-                    "acting": summed if heading is STAGE_VIII else before[k : k + 1],
-                    "left": None if unbalance is None else remainder if heading is STAGE_VIII else after[k : k + 1],
-                    "iron": in_planes if heading is STAGE_VII else (),
-                    "rules_of_thumb": rules.get(heading, ()),
-                }
-            )
+            {
+                **WORDS[k],
+                "plane": shape.plane,
+                "frequency": shape.frequency,
+                "balanceable": shape.balanceable,
+                "value": value[k],
+                "remaining": remaining[k],
+                "acting": summed if heading is STAGE_VIII else before[k : k + 1],
+                "left": None if unbalance is None else remainder if heading is STAGE_VIII else after[k : k + 1],
+                "iron": in_planes if heading is STAGE_VII else (),
+                "rules_of_thumb": rules.get(heading, ()),
+            }
             for k, (heading, shape) in enumerate(zip(HEADINGS, shapes, strict=True))
         ]
     )
@@ -298,7 +295,7 @@ def _frequency(order: int, speed: float) -> str:
 _PARTS = ("rotating_inertia", "reciprocating_inertia", "second_order")
 
 
-def _figure(scene: Prepared, unbalance: Complex | None) -> tuple[Stage, ...]:
+def _figure(scene: Prepared, unbalance: Complex | None) -> tuple[dict[str, Any], ...]:
     turning, first, second = (scene.results[name] for name in _PARTS)
     return stages(scene.layout, turning, first, second, unbalance, scene.shafts)
 

@@ -30,13 +30,15 @@ from schemas.request.scene import Scene
 
 #: ways round what does not go together, see docs/api/together.md
 _FIX_THE_CHOICE = "choose without, then ask with the choice as fixed weights"
+#: certified gap that masses of any size are asked for where nothing is said
+_GAP = 1e-6
 
 
 class Accuracy(Model):
     """How close to the optimum the answer has to be."""
 
     relative_gap: Annotated[float, Strict()] = Field(
-        1e-6,
+        _GAP,
         ge=1e-12,
         le=1,
         description="certified gap asked for, relative to the objective without counterweights; 1e-3 if not said where"
@@ -57,7 +59,7 @@ class Accuracy(Model):
         name = "relative_gap"
         if name in self.model_fields_set:
             return self
-        gap = DISCRETE_GAP if discrete else type(self).model_fields[name].default
+        gap = DISCRETE_GAP if discrete else _GAP
         if gap == self.relative_gap:
             return self
         accuracy = self.model_copy(update={name: gap})

@@ -133,4 +133,4 @@ def test_a_result_is_kept_only_for_the_outputs_that_name_it() -> None:
     asked = {name: OUTPUTS[name].needs for name in ("rod_loads", "flywheel")}
     found = simulate(machine, layout(machine), asked, Fidelity(), np.linspace(0.0, 6.0, 7))
     assert set(found.results) == {need for needs in asked.values() for need in needs}
-    assert {name for name, use in found.uses.items() if use.simulated} > set(found.results)
+    assert {name for name, use in found.uses.items() if use["simulated"]} > set(found.results)

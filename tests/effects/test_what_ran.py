@@ -132,4 +132,4 @@ def test_what_is_called_for_later_is_simulated_once(ran: Counter[str]) -> None:
     first = scene.simulated.result("whole_turn", "objective")
     assert scene.simulated.result("whole_turn", "scenarios") is first
     assert ran["whole_turn"] == 1
-    assert scene.simulated.uses["whole_turn"].needed_by == ("objective", "scenarios")
+    assert scene.simulated.uses["whole_turn"]["needed_by"] == ("objective", "scenarios")

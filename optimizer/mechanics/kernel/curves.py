@@ -269,7 +269,7 @@ def _add_places(sums, curve, reading, of_rows, number, start, stop, results):  #
 @inner_with_arrays
 def _alike(weights, curve, design, piece, angle, half):  # type: ignore[no-untyped-def]
     """Of places (m,) the number of each among those that differ, and which is the first of these; those of curves of
-    one row alone stand side by side."""
+    which the same row counts first stand side by side: rows that no curve of a block counts are not expanded there."""
     count, rows = angle.size, weights.shape[1]
     number, first = np.arange(count), np.arange(count)
     if count * rows <= _FEW:
@@ -310,14 +310,11 @@ def _rising(values):  # type: ignore[no-untyped-def]
 
 @inner
 def _kind(weights):  # type: ignore[no-untyped-def]
-    """The one row that counts, or else how many rows there are."""
-    row = -1
+    """The first row that counts; how many rows there are where none does."""
     for r in range(weights.size):
         if weights[r] != 0.0:
-            if row >= 0:
-                return weights.size
-            row = r
-    return weights.size if row < 0 else row
+            return r
+    return weights.size
 
 
 @inner_with_arrays
