@@ -114,9 +114,9 @@ def stack(layouts: Sequence[T]) -> T:
     """Layouts of one shape as one layout with a leading axis."""
     first = layouts[0]
     parts = {
-        f.name: stack([getattr(one, f.name) for one in layouts])
+        f.name: stack([getattr(layout, f.name) for layout in layouts])
         if is_dataclass(getattr(first, f.name))
-        else np.stack([getattr(one, f.name) for one in layouts])
+        else np.stack([getattr(layout, f.name) for layout in layouts])
         for f in fields(first)  # type: ignore[arg-type]
     }
     return type(first)(**parts)

@@ -63,12 +63,12 @@ class Command(subprocess.Popen):  # type: ignore[type-arg]
         super().__init__([sys.executable, "-m", module, *arguments], env=chosen, cwd=cwd or root, **files)
 
     # all else, pipes before it and waiting after it, is as for what is started from nothing
-    def _execute_child(self, *given: Any) -> None:
+    def _execute_child(self, *arguments: Any) -> None:
         if self._fresh:
-            super()._execute_child(*given)  # type: ignore[misc]
+            super()._execute_child(*arguments)  # type: ignore[misc]
             return
         names = list(signature(subprocess.Popen._execute_child).parameters)[1:]  # type: ignore[attr-defined]
-        values = dict(zip(names, given, strict=True))
+        values = dict(zip(names, arguments, strict=True))
         pipes = [values[name] for name in _PIPES]
         ends = [values[name] for name in ("p2cread", "c2pwrite", "errwrite")]
         streams = [own if end == -1 else end for own, end in enumerate(ends)]
@@ -76,9 +76,9 @@ class Command(subprocess.Popen):  # type: ignore[type-arg]
         self._child_created = True
         self._close_pipe_fds(*pipes)  # type: ignore[attr-defined]
 
-    def _internal_poll(self, *given: Any, **named: Any) -> int | None:
+    def _internal_poll(self, *arguments: Any, **named: Any) -> int | None:
         named["_waitpid"] = lambda _, options: self._try_wait(options)
-        return super()._internal_poll(*given, **named)  # type: ignore[misc]
+        return super()._internal_poll(*arguments, **named)  # type: ignore[misc]
 
     def _try_wait(self, options: int) -> tuple[int, int]:
         if self._ends is None:

@@ -80,9 +80,9 @@ class Messages:
     def pytest_warning_recorded(
         self, warning_message: warnings.WarningMessage, when: str, nodeid: str, location: object
     ) -> None:
-        seen = warning_message
+        message = warning_message
         # its text, as not all that a warning holds can be sent
-        text = warnings.WarningMessage(str(seen.message), seen.category, seen.filename, seen.lineno)
+        text = warnings.WarningMessage(str(message.message), message.category, message.filename, message.lineno)
         self._warnings.append({"warning_message": text, "when": when, "nodeid": nodeid, "location": location})
 
     def take(self) -> tuple[list[dict[str, Any]], list[dict[str, Any]]]:
@@ -134,8 +134,8 @@ class Run:
 
     def _start(self, waiting: bool, unit: deque[int]) -> Worker:
         ours, theirs = _FORK.Pipe()
-        others = (ours, *self._workers)
-        process = _FORK.Process(target=work, args=(self._session, theirs, others, next(self._numbers), waiting))
+        connections = (ours, *self._workers)
+        process = _FORK.Process(target=work, args=(self._session, theirs, connections, next(self._numbers), waiting))
         process.start()
         theirs.close()
         worker = self._workers[ours] = Worker(process, ours, waiting, unit)
@@ -173,10 +173,10 @@ class Run:
         except (EOFError, ConnectionResetError):
             self._bury(worker)
             return
-        for seen in warned:
-            self._config.hook.pytest_warning_recorded.call_historic(kwargs=seen)
-        made = [self._config.hook.pytest_report_from_serializable(config=self._config, data=data) for data in reports]
-        self._report(worker.sent.popleft(), made)
+        for value in warned:
+            self._config.hook.pytest_warning_recorded.call_historic(kwargs=value)
+        values = [self._config.hook.pytest_report_from_serializable(config=self._config, data=data) for data in reports]
+        self._report(worker.sent.popleft(), values)
         self._send(worker)
 
     def _look(self) -> None:
@@ -220,15 +220,15 @@ def _end(code: int | None) -> str:
 
 
 def work(
-    session: pytest.Session, connection: Connection, others: Iterable[Connection], number: int, waiting: bool
+    session: pytest.Session, connection: Connection, connections: Iterable[Connection], number: int, waiting: bool
 ) -> NoReturn:
     """In a process: the tests that are sent, until there is none."""
     prctl(PR_SET_PDEATHSIG, signal.SIGTERM)
     if not waiting:
         os.nice(_NICE)
     # by which it would not be missed that the first process has ended
-    for other in others:
-        other.close()
+    for single_connection in connections:
+        single_connection.close()
     config = session.config
     plugins = config.pluginmanager
     _move(config, number)
@@ -270,6 +270,6 @@ def _move(config: pytest.Config, number: int) -> None:
 
 
 def _capture(config: pytest.Config) -> CaptureManager:
-    found = config.pluginmanager.getplugin("capturemanager")
-    assert isinstance(found, CaptureManager)
-    return found
+    value = config.pluginmanager.getplugin("capturemanager")
+    assert isinstance(value, CaptureManager)
+    return value

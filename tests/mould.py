@@ -122,11 +122,11 @@ class Mould:
                 elif (module := self._fork(key.fileobj)) is not None:  # type: ignore[arg-type]
                     return module
 
-    def _fork(self, asked: socket.socket) -> str | None:
-        text, files, _, _ = socket.recv_fds(asked, LARGEST, 3)
+    def _fork(self, single_socket: socket.socket) -> str | None:
+        text, files, _, _ = socket.recv_fds(single_socket, LARGEST, 3)
         if not text:
-            self._selector.unregister(asked)
-            asked.close()
+            self._selector.unregister(single_socket)
+            single_socket.close()
             return None
         hears, tells = os.pipe()
         pid = os.fork()
@@ -138,7 +138,7 @@ class Mould:
         self._ends[pid] = tells
         # who asked may have ended
         with suppress(OSError):
-            socket.send_fds(asked, [str(pid).encode()], [hears])
+            socket.send_fds(single_socket, [str(pid).encode()], [hears])
         for file in (hears, *files):
             os.close(file)
         return None

@@ -22,7 +22,7 @@ def part(count: int, values: Iterable[Any], rows: bool = False) -> list[Any]:
 
     ``rows`` is whether each of the values is a tuple of several parameters.
     """
-    sets = [one if isinstance(one, ParameterSet) or not rows else pytest.param(*one) for one in values]
+    sets = [value if isinstance(value, ParameterSet) or not rows else pytest.param(*value) for value in values]
     return sets if ALL else every(count, sets)
 
 

@@ -13,18 +13,18 @@ import numpy as np
 CLOSE = 1e-10
 
 
-def print_of(found: Any) -> list[Any]:
+def print_of(value: Any) -> list[Any]:
     """Numbers and words by which a result is told from another.
 
     Of an array: its shape, how many of its values are finite, their weighted sum (real, imaginary), and the sum of
     their magnitudes.
     """
-    return list(_told(found))
+    return list(_leaves(value))
 
 
-def alike(found: list[Any], recorded: list[Any]) -> bool:
+def alike(values: list[Any], recorded: list[Any]) -> bool:
     """Whether results are the same to rounding."""
-    return len(found) == len(recorded) and all(map(_same, found, recorded))
+    return len(values) == len(recorded) and all(map(_same, values, recorded))
 
 
 @dataclass(frozen=True)
@@ -37,14 +37,14 @@ class Record:
     @cached_property
     def prints(self) -> dict[str, list[Any]]:
         """As they were."""
-        found: dict[str, list[Any]] = json.loads(self.file.read_text())
-        return found
+        document: dict[str, list[Any]] = json.loads(self.file.read_text())
+        return document
 
     def changes(self, name: str) -> list[Any]:
         """What a function comes to that is not as it was, beside that."""
-        found, before = print_of(self.cases[name]()), self.prints[name]
-        differ = [pair for pair in zip(found, before, strict=False) if not alike([pair[0]], [pair[1]])]
-        return differ or ([] if len(found) == len(before) else [(len(found), len(before))])
+        values, before = print_of(self.cases[name]()), self.prints[name]
+        differ = [pair for pair in zip(values, before, strict=False) if not alike([pair[0]], [pair[1]])]
+        return differ or ([] if len(values) == len(before) else [(len(values), len(before))])
 
     def write(self) -> None:
         """Write the file, a line for each case."""
@@ -52,20 +52,20 @@ class Record:
         self.file.write_text("{\n" + ",\n".join(lines) + "\n}\n")
 
 
-def _told(found: Any) -> Iterator[Any]:
-    if is_dataclass(found):
-        found = [getattr(found, field.name) for field in fields(found)]
-    if isinstance(found, dict):
-        for name, value in found.items():
+def _leaves(number: Any) -> Iterator[Any]:
+    if is_dataclass(number):
+        number = [getattr(number, field.name) for field in fields(number)]
+    if isinstance(number, dict):
+        for name, value in number.items():
             yield name
-            yield from _told(value)
-    elif isinstance(found, tuple | list):
-        for each in found:
-            yield from _told(each)
-    elif isinstance(found, np.ndarray | np.generic | float):
-        yield _of_array(np.asarray(found))
+            yield from _leaves(value)
+    elif isinstance(number, tuple | list):
+        for entry in number:
+            yield from _leaves(entry)
+    elif isinstance(number, np.ndarray | np.generic | float):
+        yield _of_array(np.asarray(number))
     else:
-        yield found
+        yield number
 
 
 def _of_array(values: Any) -> list[Any]:
@@ -76,8 +76,8 @@ def _of_array(values: Any) -> list[Any]:
     return [list(values.shape), finite.size, whole.real, whole.imag, float(np.sum(np.abs(finite)))]
 
 
-def _same(one: Any, other: Any) -> bool:
-    if not (isinstance(one, list) and isinstance(other, list)):
-        return bool(one == other)
-    close = CLOSE * other[-1]
-    return one[:2] == other[:2] and all(abs(a - b) <= close for a, b in zip(one[2:], other[2:], strict=True))
+def _same(first: Any, second: Any) -> bool:
+    if not (isinstance(first, list) and isinstance(second, list)):
+        return bool(first == second)
+    close = CLOSE * second[-1]
+    return first[:2] == second[:2] and all(abs(a - b) <= close for a, b in zip(first[2:], second[2:], strict=True))

@@ -10,13 +10,13 @@ from tests.mould import FORK_SERVER
 
 def all_children(pid: int) -> list[psutil.Process]:
     """The children of a process, as the system lists them: psutil looks through all processes there are."""
-    found = []
+    processes = []
     for listed in Path(f"/proc/{pid}/task").glob("*/children"):
         with suppress(OSError):
             for child in listed.read_text().split():
                 with suppress(psutil.NoSuchProcess):
-                    found.append(psutil.Process(int(child)))
-    return found
+                    processes.append(psutil.Process(int(child)))
+    return processes
 
 
 def children(pid: int, text: str) -> list[psutil.Process]:

@@ -30,9 +30,9 @@ def test_settings_are_its_own() -> None:
     line = "COUNTERWEIGHT_NOBODY_KNOWS: "
     refused = run("service", "serve", environment={**os.environ, "COUNTERWEIGHT_NOBODY_KNOWS": "1"})
     assert (refused.returncode, refused.stdout, line in refused.stderr) == (2, "", True)
-    known = run("service", "schema", "optimize")
-    assert json.loads(known.stdout)["title"] == "Optimize request"
-    assert (known.returncode, known.stderr) == (0, "")
+    process = run("service", "schema", "optimize")
+    assert json.loads(process.stdout)["title"] == "Optimize request"
+    assert (process.returncode, process.stderr) == (0, "")
 
 
 @pytest.mark.parametrize("ending", [signal.SIGTERM, signal.SIGKILL])
@@ -63,9 +63,9 @@ def test_processes_that_are_forked_share_what_commands_are_forked_from() -> None
 def test_what_is_told_to_an_interpreter_starts_one() -> None:
     def started(**environment: str) -> str:
         with Command("json.tool", environment={**os.environ, **environment}, **PIPES) as command:
-            found = " ".join(psutil.Process(command.pid).cmdline())
+            text = " ".join(psutil.Process(command.pid).cmdline())
             command.communicate("{}", timeout=180)
-        return found
+        return text
 
     assert "tests.mould" in started(COUNTERWEIGHT_LOG_LEVEL="debug")
     assert "tests.mould" not in started(PYTHONPATH="/nowhere")
@@ -75,5 +75,5 @@ def test_the_folder_of_its_temporary_files_may_have_any_name(tmp_path: Path) -> 
     # addresses of sockets that are files have 107 characters at most
     folder = tmp_path / ("x" * 100)
     folder.mkdir()
-    known = run("service", "schema", "optimize", environment={**os.environ, "TMPDIR": str(folder)})
-    assert (known.returncode, known.stderr) == (0, "")
+    process = run("service", "schema", "optimize", environment={**os.environ, "TMPDIR": str(folder)})
+    assert (process.returncode, process.stderr) == (0, "")

@@ -18,7 +18,7 @@ from tests.distribution import (
 def taken(collection: list[str], *waiting: bool) -> list[list[str]]:
     """The tests that processes get one after the other, which want tests that wait, or others."""
     distribution = Distribution(collection)
-    return [[collection[place] for place in distribution.take(wanted)] for wanted in waiting]
+    return [[collection[place] for place in distribution.take(verdict)] for verdict in waiting]
 
 
 def names(file: str, count: int) -> list[str]:
@@ -32,9 +32,9 @@ def test_some_compute_from_the_beginning(processes: int, computing: int) -> None
 
 def test_some_begin_with_what_waits_and_others_with_what_computes() -> None:
     files = {"mechanics/test_rod.py": 40, "jobs/test_store.py": 4, "schemas/test_units.py": 9, "network/test_cut.py": 5}
-    collection = [one for file, count in files.items() for one in names(file, count)]
+    collection = [name for file, count in files.items() for name in names(file, count)]
     units = taken(collection, True, False, True, False, True)
-    assert [{one.split("::")[0].removeprefix("tests/") for one in unit} for unit in units] == [
+    assert [{text.split("::")[0].removeprefix("tests/") for text in unit} for unit in units] == [
         {"network/test_cut.py"}, {"mechanics/test_rod.py"}, {"jobs/test_store.py"}, {"schemas/test_units.py"}, set(),
     ]  # fmt: skip
 
@@ -58,10 +58,10 @@ def test_who_wants_tests_that_wait_gets_others_when_there_are_none() -> None:
 
 
 def test_nothing_is_left_or_taken_twice() -> None:
-    collection = [one for number in range(9) for one in names(f"jobs/test_{number}.py", 1 + number % 4)]
+    collection = [name for number in range(9) for name in names(f"jobs/test_{number}.py", 1 + number % 4)]
     units = taken(collection, *[True, False] * 5)
     assert units[-1] == []
-    assert sorted(one for unit in units for one in unit) == sorted(collection)
+    assert sorted(text for unit in units for text in unit) == sorted(collection)
 
 
 @pytest.mark.parametrize("name", [*LONG, *WAITING, *TOGETHER, *HALVES.values()])

@@ -12,15 +12,15 @@ NUMBERS = range(700_000_001, 700_002_001, 10)
 
 
 def tried() -> list[int]:
-    found: list[int] = []
+    numbers: list[int] = []
 
     @settings(max_examples=300)
     @given(st.integers())
     def look(number: int) -> None:
-        found.append(number)
+        numbers.append(number)
 
     look()
-    return found
+    return numbers
 
 
 def test_what_is_loaded_changes_no_examples(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

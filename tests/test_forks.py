@@ -99,9 +99,9 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
 @pytest.fixture(scope="module")
 def result(folder: Path) -> subprocess.CompletedProcess[str]:
     """Of a run of seven tests in one file, one of which fails, and of four in another, two of which end processes."""
-    found = pytest_run(folder, "-n", "2", "-v", "--durations=0", "-vv", f"--junitxml={folder / 'report.xml'}")
+    process = pytest_run(folder, "-n", "2", "-v", "--durations=0", "-vv", f"--junitxml={folder / 'report.xml'}")
     os.kill(int((folder / "test_second.py.left").read_text()), signal.SIGKILL)
-    return found
+    return process
 
 
 def test_all_is_reported_once(result: subprocess.CompletedProcess[str]) -> None:
@@ -124,8 +124,8 @@ def test_what_failed_shows_its_reason_and_what_it_printed(result: subprocess.Com
 
 
 def test_how_a_process_has_ended_is_said_of_its_test(result: subprocess.CompletedProcess[str]) -> None:
-    said = re.findall(r"the process of this test has ended: (.*)", result.stdout)
-    assert {"SIGKILL", "exit code 7"} <= set(said)
+    matches = re.findall(r"the process of this test has ended: (.*)", result.stdout)
+    assert {"SIGKILL", "exit code 7"} <= set(matches)
 
 
 def test_reports_are_written(result: subprocess.CompletedProcess[str], folder: Path) -> None:

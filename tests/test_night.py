@@ -7,7 +7,11 @@ from tests import night
 
 
 def _by_day(parameters: list[object]) -> list[object]:
-    return [one for one in parameters if not any(mark.name == "nightly" for mark in getattr(one, "marks", ()))]
+    return [
+        parameter
+        for parameter in parameters
+        if not any(mark.name == "nightly" for mark in getattr(parameter, "marks", ()))
+    ]
 
 
 @pytest.mark.parametrize(("everything", "count"), [(False, 2), (True, 4)])
@@ -33,8 +37,8 @@ def test_examples_are_fewer_by_day_alone(
 ) -> None:
     monkeypatch.setattr(night, "ALL", everything)
     usual = settings.default.max_examples
-    found = [night.by_day(3, 5).max_examples, night.by_day(3).max_examples]
-    assert found == [usual if count is None else count for count in counts]
+    max_examples = [night.by_day(3, 5).max_examples, night.by_day(3).max_examples]
+    assert max_examples == [usual if count is None else count for count in counts]
 
 
 @pytest.mark.parametrize("everything", [False, True])

@@ -40,7 +40,7 @@ def random_cylinder(rng: np.random.Generator, acting: str | None = None) -> dict
 def random_driven(seed: int, style: str = "v", *, throws: int | None = None, **rest: Any) -> dict[str, Any]:
     """A machine of unequal rows on up to three throws, with friction, flywheel, bearings and webs."""
     rng = np.random.default_rng([seed, STYLES.index(style)])
-    made, count = [], 0
+    cranks, count = [], 0
     for k in range(throws or rng.integers(1, 4)):
         radius, first = rng.uniform(0.03, 0.3), rng.uniform(-400.0, 400.0)
         rows = [
@@ -54,7 +54,7 @@ def random_driven(seed: int, style: str = "v", *, throws: int | None = None, **r
             for axis in _AXES[style]
         ]
         count += len(rows)
-        made.append(
+        cranks.append(
             {
                 "position_m": 0.6 * k + rng.uniform(-0.1, 0.1),
                 "crank_radius_m": radius,
@@ -67,10 +67,10 @@ def random_driven(seed: int, style: str = "v", *, throws: int | None = None, **r
         "kind": "reciprocating",
         "speed_rpm": rng.uniform(200.0, 1500.0),
         "rotation": str(rng.choice(["ccw", "cw"])),
-        "throws": made,
+        "throws": cranks,
         "friction": {"mechanical_efficiency": rng.uniform(0.8, 1.0), "reciprocating_share": rng.uniform(0.0, 1.0)},
         "flywheel": {"irregularity": 0.02},
-        "bearings": [{"name": str(k), "position_m": -0.4 + 0.6 * k} for k in range(len(made) + 1)],
+        "bearings": [{"name": str(k), "position_m": -0.4 + 0.6 * k} for k in range(len(cranks) + 1)],
         "webs": [
             {"name": name, "position_m": z, "counterweight_radius_m": 0.2, "max_mass_kg": 50.0}
             for name, z in (("a", -0.2), ("b", 0.3))

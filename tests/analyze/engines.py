@@ -22,9 +22,9 @@ def four_stroke(angle_deg: Real, peak_pa: float = 9e6) -> Real:
     # from the end of the compression to the line of the expansion in 15 degrees
     rising = compressed + (burnt - compressed) * np.clip(angle_deg / 15.0, 0.0, 1.0)
     open_ = np.where(angle_deg < 360.0, 1.15 * AMBIENT, 0.9 * AMBIENT)
-    found = np.where(angle_deg < 140.0, rising, np.where(angle_deg < 540.0, open_, compressed))
-    found[-1] = found[0]
-    return found
+    indices = np.where(angle_deg < 140.0, rising, np.where(angle_deg < 540.0, open_, compressed))
+    indices[-1] = indices[0]
+    return indices
 
 
 def trace(step_deg: float = 10.0, turns: int = 2, **rest: Any) -> dict[str, Any]:
@@ -47,7 +47,9 @@ def cylinder(head: dict[str, Any], turns: int = 2, **pressure: Any) -> dict[str,
 
 def engine(firing_deg: Sequence[float], cylinders: Sequence[dict[str, Any]] | None = None, **rest: Any) -> Any:
     """An in-line engine whose cylinders fire at these shaft angles."""
-    made = [cylinder(trace(), dead_centre_deg=one % 720.0) for one in firing_deg] if cylinders is None else cylinders
+    actual_cylinders = (
+        [cylinder(trace(), dead_centre_deg=value % 720.0) for value in firing_deg] if cylinders is None else cylinders
+    )
     sense = -1.0 if rest.get("rotation") == "cw" else 1.0
     count = len(firing_deg)
     return {
@@ -64,7 +66,7 @@ def engine(firing_deg: Sequence[float], cylinders: Sequence[dict[str, Any]] | No
                         "axis_deg": 90.0,
                         "reciprocating_mass_kg": 0.9,
                         "connecting_rod": {"length_m": RADIUS / LAM, "mass_kg": 0.8},
-                        "cylinder": made[k],
+                        "cylinder": actual_cylinders[k],
                     }
                 ],
             }

@@ -10,7 +10,7 @@ from schemas.answer.dynamics import BearingLoad
 from tests.analyze.driven import ask, random_driven
 
 
-def _seen(load: BearingLoad, angles: tuple[float, ...], sense: int) -> list[complex]:
+def _phasors(load: BearingLoad, angles: tuple[float, ...], sense: int) -> list[complex]:
     pairs = zip(load.force_x_N, load.force_y_N, angles, strict=True)
     return [complex(x, y) * cmath.exp(-1j * sense * math.radians(angle)) for x, y, angle in pairs]
 
@@ -19,12 +19,12 @@ def _seen(load: BearingLoad, angles: tuple[float, ...], sense: int) -> list[comp
 def test_the_circle_holds_the_load_wherever_counterweights_move_it(rotation: str) -> None:
     body: dict[str, Any] = {**random_driven(3, "v", throws=2), "rotation": rotation}
     fitted = [{"web": "a", "mass_kg": 12.0, "angle_deg": 70.0}]
-    found = ask(body, "main_bearings", step_deg=1.0, counterweights=fitted).main_bearings
-    for one in found.bearings:
+    main_bearings = ask(body, "main_bearings", step_deg=1.0, counterweights=fitted).main_bearings
+    for bearing in main_bearings.bearings:
         moved = set()
-        for load in (one.before, one.after):
+        for load in (bearing.before, bearing.after):
             centre = complex(load.circle_x_N, load.circle_y_N)
-            points = _seen(load, found.angle_deg, 1 if rotation == "ccw" else -1)
+            points = _phasors(load, main_bearings.angle_deg, 1 if rotation == "ccw" else -1)
             distances = [abs(point - centre) for point in points]
             # property: nothing is outside, and samples a degree apart come close to the rim
             assert max(distances) <= load.floor_N * (1.0 + 1e-6)
@@ -34,4 +34,4 @@ def test_the_circle_holds_the_load_wherever_counterweights_move_it(rotation: str
             moved.add(complex(round((points[0] - centre).real, 3), round((points[0] - centre).imag, 3)))
         # analytic: seen from the circle the load is the same
         first, *rest = sorted(moved, key=abs)
-        assert all(abs(each - first) <= 1e-6 * one.before.peak_N + 2e-3 for each in rest)
+        assert all(abs(phasor - first) <= 1e-6 * bearing.before.peak_N + 2e-3 for phasor in rest)

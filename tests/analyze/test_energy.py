@@ -17,56 +17,56 @@ def omega(body: dict[str, Any]) -> float:
 @pytest.mark.parametrize("seed", range(8))
 def test_shaft_power_is_indicated_power_and_friction(seed: int, style: str) -> None:
     body = random_driven(seed, style)
-    found = ask(body, "torque", "gas").torque
+    torque = ask(body, "torque", "gas").torque
     # analytic: inertia takes and gives back over a turn; indicated power has a closed form of its own
-    assert found.shaft_power_W == pytest.approx(found.mean_torque_Nm * omega(body), rel=1e-14)
-    assert found.shaft_power_W == pytest.approx(found.indicated_power_W + found.friction_power_W, rel=1e-9)
+    assert torque.shaft_power_W == pytest.approx(torque.mean_torque_Nm * omega(body), rel=1e-14)
+    assert torque.shaft_power_W == pytest.approx(torque.indicated_power_W + torque.friction_power_W, rel=1e-9)
     # analytic: the efficiency that was given
     efficiency = body["friction"]["mechanical_efficiency"]
-    assert found.indicated_power_W / found.shaft_power_W == pytest.approx(efficiency, rel=1e-9)
-    assert found.mean_torque_error_Nm <= 1e-6 * found.mean_torque_Nm
-    rows = sum(row.mean_torque_Nm for row in found.rows)
-    assert rows + found.rotating_friction_Nm == pytest.approx(found.mean_torque_Nm, rel=1e-12)
+    assert torque.indicated_power_W / torque.shaft_power_W == pytest.approx(efficiency, rel=1e-9)
+    assert torque.mean_torque_error_Nm <= 1e-6 * torque.mean_torque_Nm
+    rows = sum(row.mean_torque_Nm for row in torque.rows)
+    assert rows + torque.rotating_friction_Nm == pytest.approx(torque.mean_torque_Nm, rel=1e-12)
 
 
 @pytest.mark.parametrize("seed", range(4))
 def test_power_of_every_row(seed: int) -> None:
     body = random_driven(seed, "w", friction=None)
-    found = ask(body, "torque", "gas")
-    for turned, row in zip(found.torque.rows, found.gas.rows, strict=True):
+    answer = ask(body, "torque", "gas")
+    for turned, row in zip(answer.torque.rows, answer.gas.rows, strict=True):
         assert turned.mean_torque_Nm * omega(body) == pytest.approx(row.indicated_power_W, rel=1e-9)
         assert row.indicated_power_W == pytest.approx(
-            sum(one.indicated_work_J for one in row.chambers) * body["speed_rpm"] / 60.0, rel=1e-13
+            sum(chamber.indicated_work_J for chamber in row.chambers) * body["speed_rpm"] / 60.0, rel=1e-13
         )
-    assert found.torque.friction_power_W == 0.0
-    assert found.gas.indicated_power_W == pytest.approx(found.torque.shaft_power_W, rel=1e-9)
+    assert answer.torque.friction_power_W == 0.0
+    assert answer.gas.indicated_power_W == pytest.approx(answer.torque.shaft_power_W, rel=1e-9)
 
 
 def test_friction_given_as_forces() -> None:
     rows = 4
     force = [100.0 * (k + 1) for k in range(rows)]
     body = random_driven(3, "v", throws=2, friction={"reciprocating_force_N": force, "rotating_torque_Nm": 55.0})
-    found = ask(body, "torque").torque
+    torque = ask(body, "torque").torque
     stroke = [2.0 * throw["crank_radius_m"] for throw in body["throws"] for _ in throw["rows"]]
     # analytic: each force over two strokes a turn
     losses = sum(f * 2.0 * s for f, s in zip(force, stroke, strict=True)) * body["speed_rpm"] / 60.0
-    assert found.friction_power_W == pytest.approx(losses + 55.0 * omega(body), rel=1e-13)
-    assert found.rotating_friction_Nm == 55.0
-    assert found.shaft_power_W == pytest.approx(found.indicated_power_W + found.friction_power_W, rel=1e-9)
+    assert torque.friction_power_W == pytest.approx(losses + 55.0 * omega(body), rel=1e-13)
+    assert torque.rotating_friction_Nm == 55.0
+    assert torque.shaft_power_W == pytest.approx(torque.indicated_power_W + torque.friction_power_W, rel=1e-9)
 
 
 @pytest.mark.parametrize("seed", range(4))
 def test_masses_and_rotation_are_of_no_account_for_the_power(seed: int) -> None:
     body = random_driven(seed, "v")
-    found = ask(body, "torque").torque
+    torque = ask(body, "torque").torque
     for throw in body["throws"]:
         for row in throw["rows"]:
             row["reciprocating_mass_kg"] *= 0.1
     lighter = ask(body, "torque").torque
-    assert lighter.mean_torque_Nm == pytest.approx(found.mean_torque_Nm, rel=1e-9)
-    assert lighter.fluctuation_energy_J != pytest.approx(found.fluctuation_energy_J, rel=1e-6)
-    other = {**body, "rotation": "cw" if body["rotation"] == "ccw" else "ccw"}
-    assert ask(other, "torque").torque.mean_torque_Nm == pytest.approx(found.mean_torque_Nm, rel=1e-9)
+    assert lighter.mean_torque_Nm == pytest.approx(torque.mean_torque_Nm, rel=1e-9)
+    assert lighter.fluctuation_energy_J != pytest.approx(torque.fluctuation_energy_J, rel=1e-6)
+    payload = {**body, "rotation": "cw" if body["rotation"] == "ccw" else "ccw"}
+    assert ask(payload, "torque").torque.mean_torque_Nm == pytest.approx(torque.mean_torque_Nm, rel=1e-9)
 
 
 @pytest.mark.parametrize("rod_ratio", [1e-9, 0.6, 0.9, 0.99, 0.999, 0.99999])
@@ -76,11 +76,11 @@ def test_the_estimated_error_covers_rods_hardly_longer_than_the_crank(rod_ratio:
         for throw in body["throws"]:
             for row in throw["rows"]:
                 row["connecting_rod"]["length_m"] = throw["crank_radius_m"] / rod_ratio
-        found = ask(body, "torque").torque
-        off = abs(found.shaft_power_W - found.indicated_power_W - found.friction_power_W)
-        assert off <= found.mean_torque_error_Nm * omega(body) + 1e-11 * found.shaft_power_W
+        torque = ask(body, "torque").torque
+        off = abs(torque.shaft_power_W - torque.indicated_power_W - torque.friction_power_W)
+        assert off <= torque.mean_torque_error_Nm * omega(body) + 1e-11 * torque.shaft_power_W
         if rod_ratio <= 0.9:
-            assert off <= 1e-11 * found.shaft_power_W
+            assert off <= 1e-11 * torque.shaft_power_W
 
 
 @pytest.mark.parametrize("seed", range(4))
@@ -105,14 +105,14 @@ def test_means_do_not_depend_on_the_samples() -> None:
 @pytest.mark.parametrize("seed", range(4))
 def test_fluctuation_energy_of_the_samples(seed: int) -> None:
     body = random_driven(seed, "w")
-    found = ask(body, "torque", step_deg=0.05).torque
-    torque, step = np.array(found.torque_Nm), np.deg2rad(0.05)
+    moment = ask(body, "torque", step_deg=0.05).torque
+    torque, step = np.array(moment.torque_Nm), np.deg2rad(0.05)
     closed = np.append(torque, torque[0])
     running = np.concatenate([[0.0], np.cumsum(0.5 * (closed[1:] + closed[:-1]) - torque.mean())]) * step
     # independent: the trapezoidal rule on a fine grid
-    assert found.fluctuation_energy_J == pytest.approx(np.ptp(running), rel=2e-3)
-    assert found.mean_torque_Nm == pytest.approx(torque.mean(), rel=2e-3)
-    assert abs(found.fluctuation_energy_error_J) < 1e-3 * found.fluctuation_energy_J
+    assert moment.fluctuation_energy_J == pytest.approx(np.ptp(running), rel=2e-3)
+    assert moment.mean_torque_Nm == pytest.approx(torque.mean(), rel=2e-3)
+    assert abs(moment.fluctuation_energy_error_J) < 1e-3 * moment.fluctuation_energy_J
 
 
 @pytest.mark.parametrize("seed", range(3))
@@ -145,11 +145,11 @@ def test_inertia_alone_has_an_analytic_fluctuation() -> None:
     }
     throw = {"position_m": 0.0, "crank_radius_m": 0.2, "crank_angle_deg": 33.0, "rows": [row]}
     body = {"kind": "reciprocating", "speed_rpm": 300.0, "throws": [throw]}
-    found = ask(body, "torque").torque
+    torque = ask(body, "torque").torque
     # analytic: m r^2 w^2 sin phi cos phi, amplitude m r^2 w^2 / 2 at the second order: range m r^2 w^2 / 2
     expected = 0.5 * 10.0 * 0.2**2 * omega(body) ** 2
-    assert found.fluctuation_energy_J == pytest.approx(expected, rel=1e-4)
-    assert found.mean_torque_Nm == pytest.approx(0.0, abs=1e-9 * expected)
+    assert torque.fluctuation_energy_J == pytest.approx(expected, rel=1e-4)
+    assert torque.mean_torque_Nm == pytest.approx(0.0, abs=1e-9 * expected)
 
 
 def test_torque_of_one_row_by_quadrature() -> None:
@@ -181,5 +181,5 @@ def test_torque_of_one_row_by_quadrature() -> None:
         return sum(quad(power, k * np.pi / 180, (k + 1) * np.pi / 180)[0] for k in range(360))
 
     expected = work("head", np.pi / 4 * bore**2) + work("crank", np.pi / 4 * (bore**2 - stem**2))
-    found = ask(body, "torque").torque
-    assert found.mean_torque_Nm * 2.0 * np.pi == pytest.approx(expected, rel=1e-6)
+    torque = ask(body, "torque").torque
+    assert torque.mean_torque_Nm * 2.0 * np.pi == pytest.approx(expected, rel=1e-6)

@@ -30,16 +30,21 @@ def _four() -> dict[str, Any]:
 
 def _fitted(rate: float, webs: tuple[int, ...]) -> AnalyzeAnswer:
     """Every throw balanced at this rate by those of its webs that are named, opposite its crank."""
-    each = rate * ROTATING * 4 / len(webs) / 0.05
+    actual_rate = rate * ROTATING * 4 / len(webs) / 0.05
     opposite = {web: 180.0 if web in (1, 2, 7, 8) else 0.0 for web in webs}
-    given = [{"web": f"{web}", "mass_kg": each, "angle_deg": opposite[web]} for web in webs]
-    asked = {"machine": _four(), "counterweights": given, "outputs": ["main_bearings"], "angles": {"step_deg": 10}}
-    return analyze(AnalyzeRequest.model_validate(asked))
+    counterweights = [{"web": f"{web}", "mass_kg": actual_rate, "angle_deg": opposite[web]} for web in webs]
+    body = {
+        "machine": _four(),
+        "counterweights": counterweights,
+        "outputs": ["main_bearings"],
+        "angles": {"step_deg": 10},
+    }
+    return analyze(AnalyzeRequest.model_validate(body))
 
 
 def _worst(answer: AnalyzeAnswer) -> float:
     assert answer.main_bearings is not None
-    return max(one.after.peak_N for one in answer.main_bearings.bearings if one.after is not None)
+    return max(bearing.after.peak_N for bearing in answer.main_bearings.bearings if bearing.after is not None)
 
 
 def test_four_counterweights_at_a_lower_rate_load_the_bearings_like_eight() -> None:

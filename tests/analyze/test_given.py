@@ -32,20 +32,20 @@ def weight(mass: float, angle: float, **place: Any) -> dict[str, Any]:
     return {"mass_kg": mass, "angle_deg": angle, **place}
 
 
-def same(one: AnalyzeAnswer, other: AnalyzeAnswer) -> None:
+def same(first_answer: AnalyzeAnswer, second_answer: AnalyzeAnswer) -> None:
     """Equal to the rounding of a sum in another order."""
-    for found in (one, other):
-        assert found.residual is not None
-        assert found.residual.after is not None
-        assert found.balance_quality is not None
-        assert found.balance_quality.after is not None
+    for analysis in (first_answer, second_answer):
+        assert analysis.residual is not None
+        assert analysis.residual.after is not None
+        assert analysis.balance_quality is not None
+        assert analysis.balance_quality.after is not None
     figures = [
         [
-            *found.residual.after.force.model_dump().values(),
-            *found.residual.after.moment.model_dump().values(),
-            found.balance_quality.after.grade_mm_s,
+            *analyze_answer.residual.after.force.model_dump().values(),
+            *analyze_answer.residual.after.moment.model_dump().values(),
+            analyze_answer.balance_quality.after.grade_mm_s,
         ]
-        for found in (one, other)
+        for analyze_answer in (first_answer, second_answer)
     ]
     np.testing.assert_allclose(figures[0], figures[1], rtol=1e-9, atol=1e-6)
 
@@ -70,7 +70,7 @@ def test_several_in_one_plane_add_up_analytic() -> None:
     place = {"position_m": 0.31, "radius_m": 0.2}
     two = answer([weight(5.0, 100.0, **place), weight(5.0, 220.0, **place)])
     same(two, answer([weight(5.0, 160.0, **place)]))
-    names = [one.web for one in two.counterweights]
+    names = [counterweight.web for counterweight in two.counterweights]
     assert names[-2:] == ["counterweight 1", "counterweight 2"]
     assert len(set(names)) == len(names)
     assert two.counterweights[-1].position_m == 0.31
@@ -78,9 +78,9 @@ def test_several_in_one_plane_add_up_analytic() -> None:
 
 
 def test_a_plane_is_not_named_like_a_web() -> None:
-    asked = body([weight(1.0, 0.0, position_m=0.0, radius_m=0.1)])
-    asked["machine"]["webs"][0]["name"] = "counterweight 1"
-    names = [one.web for one in analyze(AnalyzeRequest.model_validate(asked)).counterweights]
+    payload = body([weight(1.0, 0.0, position_m=0.0, radius_m=0.1)])
+    payload["machine"]["webs"][0]["name"] = "counterweight 1"
+    names = [counterweight.web for counterweight in analyze(AnalyzeRequest.model_validate(payload)).counterweights]
     assert names.count("counterweight 1") == 1
     assert names[-1] == "counterweight 1'"
 
@@ -88,9 +88,9 @@ def test_a_plane_is_not_named_like_a_web() -> None:
 def test_on_a_plate_its_own_radius_takes_the_place_of_what_is_cut() -> None:
     with pytest.raises(OutOfRange):
         answer([weight(9.0, 270.0, web="front")], "plate-single")
-    found = answer([weight(9.0, 270.0, web="front", radius_m=0.02)], "plate-single")
-    assert found.counterweights[0].shape is None
-    assert found.counterweights[0].mass_radius_kg_m == pytest.approx(0.18)
+    analysis = answer([weight(9.0, 270.0, web="front", radius_m=0.02)], "plate-single")
+    assert analysis.counterweights[0].shape is None
+    assert analysis.counterweights[0].mass_radius_kg_m == pytest.approx(0.18)
     cut = answer([weight(1.0, 270.0, web="front")], "plate-single")
     assert cut.counterweights[0].shape is not None
 
@@ -102,14 +102,14 @@ def test_on_a_balance_shaft() -> None:
 
 
 def test_a_shaft_without_webs() -> None:
-    asked = body([weight(4.0, 180.0, position_m=0.1, radius_m=0.2)])
-    asked["machine"]["webs"] = []
-    found = analyze(AnalyzeRequest.model_validate(asked))
-    assert [one.mass_kg for one in found.counterweights] == [4.0]
+    payload = body([weight(4.0, 180.0, position_m=0.1, radius_m=0.2)])
+    payload["machine"]["webs"] = []
+    analysis = analyze(AnalyzeRequest.model_validate(payload))
+    assert [counterweight.mass_kg for counterweight in analysis.counterweights] == [4.0]
 
 
 @pytest.mark.parametrize(
-    ("given", "field"),
+    ("fields", "field"),
     [
         ({}, "web"),
         ({"radius_m": 0.2}, "web"),
@@ -118,9 +118,9 @@ def test_a_shaft_without_webs() -> None:
         ({"position_m": 0.1, "radius_m": 0.0}, "radius_m"),
     ],
 )
-def test_what_is_refused(given: dict[str, Any], field: str) -> None:
+def test_what_is_refused(fields: dict[str, Any], field: str) -> None:
     with pytest.raises(ValidationError) as refused:
-        AnalyzeRequest.model_validate(body([weight(1.0, 0.0, **given)]))
+        AnalyzeRequest.model_validate(body([weight(1.0, 0.0, **fields)]))
     (error,) = refused.value.errors()
     places = [problem.path for problem in error.get("ctx", {}).get("problems", ())] or [error["loc"][-1:]]
     assert [place[-1] for place in places] == [field]
@@ -131,8 +131,8 @@ def test_planes_and_radii_of_a_sweep() -> None:
     values = {"position_m": [-0.3, 0.1, 0.4], "radius_m": [0.1, 0.2, 0.25]}
     base = body([weight(12.0, 200.0, position_m=0.0, radius_m=0.2), weight(3.0, 10.0, web="1a", radius_m=0.1)])
     axes = [{"path": f"/counterweights/0/{name}", "values": some} for name, some in values.items()]
-    asked = {"task": "analyze", "base": base, "axes": axes, "design": "paired"}
-    table = sweep_table(SweepRequest.model_validate(asked))
+    sweep = {"task": "analyze", "base": base, "axes": axes, "design": "paired"}
+    table = sweep_table(SweepRequest.model_validate(sweep))
     for k, (plane, radius) in enumerate(zip(*values.values(), strict=True)):
         base["counterweights"][0] |= {"position_m": plane, "radius_m": radius}
         after = analyze(AnalyzeRequest.model_validate(base)).residual.after

@@ -28,26 +28,26 @@ def test_a_machine_is_the_sum_of_its_rows(seed: int, style: str) -> None:
         throw["rotating_mass_kg"] = 0.0
     outputs = ("torque", "overturning", "main_bearings", "gas", "kinematics", "rod_loads", "piston_force")
     whole = ask(body, *outputs, step_deg=5.0)
-    parts = [ask(one, *outputs, step_deg=5.0) for one in rows_of(body)]
+    parts = [ask(row, *outputs, step_deg=5.0) for row in rows_of(body)]
     near = {"rtol": 1e-10}
 
     def add(of: Any) -> Any:
-        return np.sum([of(one) for one in parts], axis=0)
+        return np.sum([of(part) for part in parts], axis=0)
 
     scale = np.abs(whole.torque.torque_Nm).max()
-    torque = add(lambda one: one.torque.torque_Nm)
+    torque = add(lambda subject: subject.torque.torque_Nm)
     np.testing.assert_allclose(whole.torque.torque_Nm, torque, atol=1e-11 * scale, **near)
-    couple = add(lambda one: one.overturning.couple_Nm)
+    couple = add(lambda subject: subject.overturning.couple_Nm)
     np.testing.assert_allclose(whole.overturning.couple_Nm, couple, atol=1e-11 * scale, **near)
     # analytic: without friction the overturning couple is the torque
     np.testing.assert_allclose(whole.overturning.couple_Nm, whole.torque.torque_Nm, atol=1e-11 * scale)
-    assert whole.torque.mean_torque_Nm == pytest.approx(add(lambda one: one.torque.mean_torque_Nm), rel=1e-9)
-    assert whole.gas.indicated_power_W == pytest.approx(add(lambda one: one.gas.indicated_power_W), rel=1e-12)
-    governing = max(one.rod_loads.governing_load_N for one in parts)
+    assert whole.torque.mean_torque_Nm == pytest.approx(add(lambda subject: subject.torque.mean_torque_Nm), rel=1e-9)
+    assert whole.gas.indicated_power_W == pytest.approx(add(lambda subject: subject.gas.indicated_power_W), rel=1e-12)
+    governing = max(part.rod_loads.governing_load_N for part in parts)
     assert whole.rod_loads.governing_load_N == pytest.approx(governing, rel=1e-8)
     for k, bearing in enumerate(whole.main_bearings.bearings):
         for axis in ("force_x_N", "force_y_N"):
-            load = add(lambda one, k=k, axis=axis: getattr(one.main_bearings.bearings[k].before, axis))
+            load = add(lambda subject, k=k, axis=axis: getattr(subject.main_bearings.bearings[k].before, axis))
             scale = bearing.before.peak_N + 1.0
             np.testing.assert_allclose(getattr(bearing.before, axis), load, atol=1e-10 * scale, **near)
 
@@ -58,8 +58,8 @@ def assert_alike(mine: Any, own: Any, of: str = "") -> None:
         for name, value in mine.items():
             assert_alike(value, own[name], name)
     elif of == "cases":
-        for one, other in zip(mine, own, strict=True):
-            assert_alike(one, other)
+        for first, second in zip(mine, own, strict=True):
+            assert_alike(first, second)
     elif of.startswith(("peak_", "tension_", "compression_", "governing_load")):
         if not of.endswith("_deg"):
             np.testing.assert_allclose(mine, own, rtol=1e-8)
@@ -97,7 +97,7 @@ def test_a_row_with_another_crank_or_axis_is_the_same_row_later(rotation: str) -
         there = ask({**body, "throws": [turned_throw]}, "torque", "gas", step_deg=10.0)
         # analytic: the own angle is ahead by s (crank - axis)
         ahead = round(sense * (crank - axis) / 10.0)
-        for of in (lambda one: one.torque.torque_Nm, lambda one: one.gas.rows[0].force_N):
+        for of in (lambda subject: subject.torque.torque_Nm, lambda subject: subject.gas.rows[0].force_N):
             expected = np.roll(of(here), -ahead)
             np.testing.assert_allclose(of(there), expected, rtol=1e-9, atol=1e-10 * np.abs(expected).max())
         assert there.torque.mean_torque_Nm == pytest.approx(here.torque.mean_torque_Nm, rel=1e-10)
@@ -117,25 +117,25 @@ def test_an_opposed_pair_has_equal_own_angles() -> None:
 
 def test_series_stand_over_the_sampled_angles() -> None:
     body = random_driven(2, "v")
-    found = ask(body, "kinematics", "piston_force", "overturning", step_deg=7.5)
+    answer = ask(body, "kinematics", "piston_force", "overturning", step_deg=7.5)
     angles = 7.5 * np.arange(48)
-    np.testing.assert_allclose(found.kinematics.angle_deg, angles, rtol=1e-15)
+    np.testing.assert_allclose(answer.kinematics.angle_deg, angles, rtol=1e-15)
     moving = motion(layout(ReciprocatingMachine.model_validate(body)), np.deg2rad(angles))
-    for k, (row, force) in enumerate(zip(found.kinematics.rows, found.piston_force.rows, strict=True)):
-        assert all(0.0 <= one <= 360.0 for one in row.crank_angle_deg)
+    for k, (row, force) in enumerate(zip(answer.kinematics.rows, answer.piston_force.rows, strict=True)):
+        assert all(0.0 <= value <= 360.0 for value in row.crank_angle_deg)
         np.testing.assert_allclose(row.velocity_m_s, moving.velocity[k], rtol=1e-12, atol=1e-12)
         total = np.array(force.gas_N) + force.inertia_N + force.friction_N
         np.testing.assert_allclose(force.total_N, total, rtol=1e-13)
         # the extremes of the turn, not of the samples
         assert max(force.total_N) <= force.peak_tension_bracket_N[1]
         assert min(force.total_N) >= force.peak_compression_bracket_N[0]
-    assert max(abs(one) for one in found.overturning.couple_Nm) <= found.overturning.peak_bracket_Nm[1]
+    assert max(abs(value) for value in answer.overturning.couple_Nm) <= answer.overturning.peak_bracket_Nm[1]
 
 
 def test_load_cases() -> None:
     body = random_driven(4, "v")
-    found = ask(body, "rod_loads", "piston_force")
-    for row, piston in zip(found.rod_loads.rows, found.piston_force.rows, strict=True):
+    answer = ask(body, "rod_loads", "piston_force")
+    for row, piston in zip(answer.rod_loads.rows, answer.piston_force.rows, strict=True):
         rod, side = np.array(row.rod_N), np.array(row.side_N)
         # analytic: the rod force has the piston force and the side force as its legs
         np.testing.assert_allclose(rod**2, np.array(piston.total_N) ** 2 + side**2, rtol=1e-11)
@@ -146,12 +146,12 @@ def test_load_cases() -> None:
         for case in row.cases:
             # independent: samples at 1 degree miss little of a peak, and nothing is above it
             size = np.abs(expected[case.case]).max()
-            for found_N, (low, high), sampled in (
+            for tension_N, (low, high), sampled in (
                 (case.tension_N, case.tension_bracket_N, max(expected[case.case].max(), 0.0)),
-                (-case.compression_N, tuple(-one for one in case.compression_bracket_N[::-1]),
+                (-case.compression_N, tuple(-value for value in case.compression_bracket_N[::-1]),
                  max(-expected[case.case].min(), 0.0)),
             ):  # fmt: skip
-                assert low <= found_N <= high <= low + 1e-8 * size
+                assert low <= tension_N <= high <= low + 1e-8 * size
                 assert sampled <= high <= sampled + 0.02 * size
         largest = {name: np.abs(force).max() for name, force in expected.items()}
         assert row.governing_load_N == pytest.approx(max(largest.values()), rel=0.02)
@@ -164,9 +164,9 @@ def test_no_common_radius_no_tangential_force() -> None:
     body["throws"][1]["crank_radius_m"] = body["throws"][0]["crank_radius_m"]
     for row in body["throws"][1]["rows"]:
         row["connecting_rod"]["length_m"] = 3.0
-    found = ask(body, "torque").torque
+    torque = ask(body, "torque").torque
     radius = body["throws"][0]["crank_radius_m"]
-    np.testing.assert_allclose(np.array(found.tangential_N) * radius, found.torque_Nm, rtol=1e-13)
+    np.testing.assert_allclose(np.array(torque.tangential_N) * radius, torque.torque_Nm, rtol=1e-13)
 
 
 def test_throws_without_rows() -> None:
@@ -180,9 +180,9 @@ def test_throws_without_rows() -> None:
         "flywheel": {"irregularity": 0.01},
     }
     outputs = ("kinematics", "gas", "piston_force", "rod_loads", "torque", "flywheel", "overturning", "main_bearings")
-    found = ask(body, *outputs, step_deg=30.0)
-    assert set(found.torque.torque_Nm) == {0.0}
-    assert found.flywheel.inertia_J_kg_m2 == 0.0
+    answer = ask(body, *outputs, step_deg=30.0)
+    assert set(answer.torque.torque_Nm) == {0.0}
+    assert answer.flywheel.inertia_J_kg_m2 == 0.0
     # analytic: two equal centrifugal forces, symmetric about the bearings
-    loads = [bearing.before.peak_N for bearing in found.main_bearings.bearings]
+    loads = [bearing.before.peak_N for bearing in answer.main_bearings.bearings]
     assert loads == pytest.approx([5.0 * 0.1 * (500.0 * np.pi / 30.0) ** 2] * 2, rel=1e-12)

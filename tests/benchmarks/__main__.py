@@ -49,7 +49,7 @@ def phases(console: Console, repeats: int) -> None:
     for heading in ("case", *PHASES):
         table.add_column(heading, justify="left" if heading == "case" else "right")
     for name, taken in samples.items():
-        table.add_row(name, *(f"{statistics.median(one[phase] for one in taken):.2f}" for phase in PHASES))
+        table.add_row(name, *(f"{statistics.median(fields[phase] for fields in taken):.2f}" for phase in PHASES))
     console.print(table)
 
 
@@ -65,8 +65,11 @@ def by_output(console: Console, repeats: int) -> None:
         table.add_row(scene, *(f"{times[name][scene]:.2f}" for name in machines))
     console.print(table)
     for name, machine in machines.items():
-        found = outputs.residual_with_and_without_gas(machine, repeats)
-        console.print(f"residual alone, {name}:", ", ".join(f"{key} {value:.2f} ms" for key, value in found.items()))
+        residual_with_and_without_gas = outputs.residual_with_and_without_gas(machine, repeats)
+        console.print(
+            f"residual alone, {name}:",
+            ", ".join(f"{key} {value:.2f} ms" for key, value in residual_with_and_without_gas.items()),
+        )
     for name, value in outputs.scroll_pins(repeats).items():
         console.print(f"scroll pins, {name}: {value:.2f} ms")
     loop, block = outputs.broadcasting()
@@ -82,15 +85,17 @@ def choices(console: Console, repeats: int) -> None:
     for heading in ("case", "ours", "gap", "nodes", "SCIP", "gap", "nodes", "SCIP's less ours"):
         table.add_column(heading, justify="left" if heading == "case" else "right")
     cases = {name: partial(discrete.beside, body, repeats, 60.0) for name, body in discrete.CHOICES.items()}
-    cases |= {name: partial(discrete.matched_beside, one, repeats, 10.0) for name, one in discrete.MATCHES.items()}
+    cases |= {
+        name: partial(discrete.matched_beside, request, repeats, 10.0) for name, request in discrete.MATCHES.items()
+    }
     for name, case in cases.items():
-        found = case()
-        nodes = "" if found.ours_nodes is None else str(found.ours_nodes)
-        ours = (f"{found.ours_s:.3f}", f"{found.ours_gap:.1e}", nodes)
-        theirs = (f"{found.theirs_s:.2f}", f"{found.theirs_gap:.1e}", str(found.theirs_nodes))
-        table.add_row(name, *ours, *theirs, f"{found.apart:.1e}")
+        instance = case()
+        nodes = "" if instance.ours_nodes is None else str(instance.ours_nodes)
+        ours = (f"{instance.ours_s:.3f}", f"{instance.ours_gap:.1e}", nodes)
+        theirs = (f"{instance.theirs_s:.2f}", f"{instance.theirs_gap:.1e}", str(instance.theirs_nodes))
+        table.add_row(name, *ours, *theirs, f"{instance.apart:.1e}")
     console.print(table)
-    for name, seconds in discrete.others(repeats).items():
+    for name, seconds in discrete.rival_seconds(repeats).items():
         console.print(f"{name}: {seconds:.3f} s")
 
 

@@ -84,17 +84,17 @@ def theirs(request: AccuracyRequest) -> Iterator[Row]:
     program, held = relaxed.program.subset(0), stock(request.machine)
     for name, rival in _RIVALS.items():
         for limit in RIVAL_LIMITS_S:
-            found, seconds = _timed(
-                lambda wall, each=rival: each(program, held.options, _GAP, size, wall), limit, _GAP * size
+            answers, seconds = _timed(
+                lambda wall, function=rival: function(program, held.options, _GAP, size, wall), limit, _GAP * size
             )
-            bound = found.lower_bound * square if np.isfinite(found.lower_bound) else None
-            if found.selection is None:
+            bound = answers.lower_bound * square if np.isfinite(answers.lower_bound) else None
+            if answers.selection is None:
                 yield Row(name, f"{limit:g} s", seconds, None, bound, None, None)
                 continue
-            mass, _ = held.fitted(found.selection)
+            mass, _ = held.fitted(answers.selection)
             pieces = int(np.sum(mass > 0.0))
             assert part_numbers(mass) <= pieces
-            value = float(program.objective(held.options.carried(found.selection))) * square
+            value = float(program.objective(held.options.carried(answers.selection))) * square
             yield Row(name, f"{limit:g} s", seconds, value, bound, float(np.sum(mass)), pieces)
             if bound is not None and value - bound <= _GAP * size * square:
                 break
@@ -105,12 +105,12 @@ def _timed(run: Callable[[float], Chosen], limit_s: float, near: float) -> tuple
     wall = limit_s
     for _ in range(_TRIES):
         start = time.process_time()
-        found = run(wall)
+        outcome = run(wall)
         seconds = time.process_time() - start
-        if seconds >= _NEARLY * limit_s or (found.selection is not None and found.lower_bound >= found.objective):
+        if seconds >= _NEARLY * limit_s or (outcome.selection is not None and outcome.lower_bound >= outcome.objective):
             break
         wall *= min(limit_s / seconds, _LONGEST)
-    return found, seconds
+    return outcome, seconds
 
 
 def table(name: str) -> str:

@@ -130,7 +130,7 @@ def median_s(operation: Callable[[], object], repeats: int) -> float:
     return statistics.median(taken)
 
 
-def others(repeats: int) -> dict[str, float]:
+def rival_seconds(repeats: int) -> dict[str, float]:
     """Seconds of what else is chosen from few possibilities."""
     orders = eight_orders()
     return {

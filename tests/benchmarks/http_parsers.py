@@ -52,8 +52,10 @@ def protocol(name: str) -> type[asyncio.Protocol]:
     if name == "uvicorn, h11":
         return H11Protocol
     if name == "uvicorn, httptools":
-        found: type[asyncio.Protocol] = import_module("uvicorn.protocols.http.httptools_impl").HttpToolsProtocol
-        return found
+        http_tools_protocol: type[asyncio.Protocol] = import_module(
+            "uvicorn.protocols.http.httptools_impl"
+        ).HttpToolsProtocol
+        return http_tools_protocol
     ours = connections(Settings(), FairScheduler())
     if name == "ours":
         return ours
@@ -133,26 +135,26 @@ def measure(names: Sequence[str], clients: int, count: int, turns: int) -> dict[
             process.start()
             servers[name] = process, listening.getsockname()[1]
             listening.close()
-        found = dict.fromkeys(names, float("inf"))
+        minima = dict.fromkeys(names, float("inf"))
         for turn in range(turns + 1):
             for name, (process, port) in servers.items():
                 before = cpu_us(process)
                 asyncio.run(ask(port, clients, count))
                 spent_us = (cpu_us(process) - before) / count
                 # of the first turn much is the start
-                found[name] = min(found[name], spent_us) if turn else found[name]
+                minima[name] = min(minima[name], spent_us) if turn else minima[name]
     finally:
         for process, _ in servers.values():
             process.terminate()
             process.join(10)
-    return found
+    return minima
 
 
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--requests", type=int, default=3000, help="in a turn")
     parser.add_argument("--turns", type=int, default=7)
-    given = parser.parse_args()
+    arguments = parser.parse_args()
     names = list(NAMES)
     try:
         import_module("httptools")
@@ -160,8 +162,8 @@ def main() -> None:
         names = [name for name in NAMES if "httptools" not in name]
         print("httptools is not installed: NOT MEASURED")
     for clients in (1, 16):
-        found = measure(names, clients, given.requests, given.turns)
-        print(f"{clients} clients [us]:", "; ".join(f"{name} {each:.0f}" for name, each in found.items()))
+        measurement = measure(names, clients, arguments.requests, arguments.turns)
+        print(f"{clients} clients [us]:", "; ".join(f"{name} {value:.0f}" for name, value in measurement.items()))
 
 
 if __name__ == "__main__":

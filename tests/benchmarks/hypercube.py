@@ -27,10 +27,10 @@ _ROWS = 10_000
 
 def request(samples: int, axes: int) -> SweepRequest:
     """So many axes that are largest masses of webs, and masses of the 2D12 with eight webs."""
-    known = sweep(samples)
+    query = sweep(samples)
     extra = [f"/machine/webs/{k}/max_mass_kg" for k in range(1, 7)]
-    paths = [*(axis.path for axis in known.axes), *extra][:axes]
-    body = known.model_dump(exclude_unset=True)
+    paths = [*(axis.path for axis in query.axes), *extra][:axes]
+    body = query.model_dump(exclude_unset=True)
     body["axes"] = [{"path": path, "start": 1.0, "stop": 2.0} for path in paths]
     return SweepRequest.model_validate(body)
 
@@ -48,9 +48,9 @@ class Strata:
         """More designs; those within rounding of a border wait for the end."""
         place = (values - 1.0) * self._met.size
         clear = np.abs(place - np.round(place)) > _ROUNDING
-        found = np.floor(place[clear]).astype(np.int64)
-        self._twice += int(np.sum(self._met[found])) + found.size - np.unique(found).size
-        self._met[found] = True
+        floor = np.floor(place[clear]).astype(np.int64)
+        self._twice += int(np.sum(self._met[floor])) + floor.size - np.unique(floor).size
+        self._met[floor] = True
         self._doubtful += np.round(place[~clear]).astype(np.int64).tolist()
 
     @property
@@ -66,17 +66,17 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--samples", type=int, default=10_000_000)
     parser.add_argument("--axes", type=int, default=12, choices=range(1, 14))
-    asked = parser.parse_args()
-    sampled = request(asked.samples, asked.axes)
-    axes = [Strata(asked.samples) for _ in range(asked.axes)]
-    axis_values(sampled, 0, min(_ROWS, asked.samples))
+    arguments = parser.parse_args()
+    sampled = request(arguments.samples, arguments.axes)
+    axes = [Strata(arguments.samples) for _ in range(arguments.axes)]
+    axis_values(sampled, 0, min(_ROWS, arguments.samples))
     process, seconds = psutil.Process(), 0.0
-    table = Table(title=f"a Latin hypercube of {asked.samples:,} designs and {asked.axes} axes")
+    table = Table(title=f"a Latin hypercube of {arguments.samples:,} designs and {arguments.axes} axes")
     for heading in ("designs", "resident MB more than at the start", "us a design (CPU)", "strata wrong"):
         table.add_column(heading, justify="right")
     before = process.memory_info().rss
     for mark in range(10):
-        start, stop = (asked.samples * k // 10 for k in (mark, mark + 1))
+        start, stop = (arguments.samples * k // 10 for k in (mark, mark + 1))
         for first in range(start, stop, _ROWS):
             began = time.process_time()
             columns = axis_values(sampled, first, min(first + _ROWS, stop))

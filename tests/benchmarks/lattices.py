@@ -95,13 +95,13 @@ def highs(statement: Statement, options: Options, relative_gap: float, yardstick
     whole[:taken] = 1
     bounds = Bounds(np.zeros(count), np.where(whole > 0, 1.0, np.inf))
     # its gap is relative to its objective
-    found = milp(
+    solution = milp(
         cost, integrality=whole, bounds=bounds, constraints=LinearConstraint(left.tocsr(), low, high),
         options={"time_limit": time_limit_s, "mip_rel_gap": relative_gap},
     )  # fmt: skip
-    value = np.nan if found.fun is None else found.fun * yardstick
-    bound = -np.inf if found.mip_dual_bound is None else found.mip_dual_bound * yardstick
-    return Chosen(value, bound, int(found.mip_node_count or 0))
+    value = np.nan if solution.fun is None else solution.fun * yardstick
+    bound = -np.inf if solution.mip_dual_bound is None else solution.mip_dual_bound * yardstick
+    return Chosen(value, bound, int(solution.mip_node_count or 0))
 
 
 def ours(body: dict[str, Any], gap: float, limit_s: float) -> tuple[Ended, float, float]:
@@ -131,9 +131,9 @@ def main(limit_s: float) -> None:
                 continue
             for gap in GAPS:
                 began = time.process_time()
-                found = solver(program, options, gap, size, limit_s)
-                there = Ended(time.process_time() - began, (found.objective - found.lower_bound) / size)
-                print(f"  {gap:.0e}  {label} {there}, objective {found.objective / size:.5f}", flush=True)
+                bound = solver(program, options, gap, size, limit_s)
+                there = Ended(time.process_time() - began, (bound.objective - bound.lower_bound) / size)
+                print(f"  {gap:.0e}  {label} {there}, objective {bound.objective / size:.5f}", flush=True)
                 if there.gap > gap:
                     # nor does it come any closer in the same time
                     break

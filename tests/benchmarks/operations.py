@@ -14,27 +14,27 @@ Operate = Callable[[Any, Any], Any]
 
 
 def _counting(operate: Operate) -> Callable[["Counted", Any], "Counted"]:
-    def operation(one: "Counted", other: Any) -> "Counted":
-        if isinstance(other, np.ndarray):
+    def operation(counts: "Counted", second: Any) -> "Counted":
+        if isinstance(second, np.ndarray):
             # numpy goes through the elements
             return NotImplemented
         Counted.done += 1
-        return Counted(operate(one.value, float(other)))
+        return Counted(operate(counts.value, float(second)))
 
     return operation
 
 
 def _swapped(operate: Operate) -> Operate:
-    return lambda one, other: operate(other, one)
+    return lambda first, second: operate(second, first)
 
 
-def _quotient(one: float, other: float) -> float:
+def _quotient(first: float, second: float) -> float:
     """As compiled: infinite or not a number where a float would raise."""
-    return one / other if other else float(np.divide(one, other))
+    return first / second if second else float(np.divide(first, second))
 
 
 def _comparing(compare: Operate) -> Callable[["Counted", Any], bool]:
-    return lambda one, other: bool(compare(one.value, float(other)))
+    return lambda counts, second: bool(compare(counts.value, float(second)))
 
 
 class Counted:
@@ -86,12 +86,12 @@ def operations_per_program(calls: Sequence[tuple[Any, ...]]) -> tuple[float, flo
             space[name] = place // disc_webs.LANES
     eliminate = space["eliminate"]
 
-    def one_more(*arguments: Any) -> None:
+    def counter(*arguments: Any) -> None:
         nonlocal iterations
         iterations += 1
         eliminate(*arguments)
 
-    space["eliminate"] = one_more
+    space["eliminate"] = counter
     Counted.done = programs = 0
     with np.errstate(all="ignore"):
         for arguments in calls:

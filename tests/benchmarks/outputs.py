@@ -75,8 +75,8 @@ def broadcasting(machines: int = 1000) -> tuple[float, float]:
     """Seconds for so many machines one by one, and in one call over a leading axis."""
     body = two_rows()
     request = AnalyzeRequest.model_validate({"machine": body})
-    one = layout(request.machine)
-    block = stack([one] * machines)
+    arrangement = layout(request.machine)
+    block = stack([arrangement] * machines)
     angle = np.deg2rad(np.arange(0.0, 360.0, 10.0))
 
     def simulate(arrays: Layout) -> None:
@@ -87,7 +87,7 @@ def broadcasting(machines: int = 1000) -> tuple[float, float]:
 
     start = time.perf_counter()
     for _ in range(machines):
-        simulate(one)
+        simulate(arrangement)
     middle = time.perf_counter()
     simulate(block)
     return middle - start, time.perf_counter() - middle
@@ -111,7 +111,7 @@ def stack(parts: list[Any]) -> Any:
     """Dataclasses of arrays with a leading axis of designs."""
     first = parts[0]
     if is_dataclass(first) and not isinstance(first, type):
-        return type(first)(*(stack([getattr(part, each.name) for part in parts]) for each in fields(first)))
+        return type(first)(*(stack([getattr(part, field.name) for part in parts]) for field in fields(first)))
     return np.stack(parts)
 
 

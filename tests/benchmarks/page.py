@@ -105,7 +105,10 @@ def weigh(console: Console) -> None:
     """Kilobytes that travel, compressed, and that are read."""
     own = [asset(name) for name in names() if name not in (PLOTS, SCHEMAS)]
     schemas, plots = asset(SCHEMAS), asset(PLOTS)
-    travel, read = sum(len(gzip.compress(one.content)) for one in own), sum(len(one.content) for one in own)
+    travel, read = (
+        sum(len(gzip.compress(single_asset.content)) for single_asset in own),
+        sum(len(single_asset.content) for single_asset in own),
+    )
     console.print(
         f"page and the {len(own)} files of our own: {(len(gzip.compress(page())) + travel) / 1e3:.0f} kB, "
         f"{read / 1e3:.0f} kB read; schemas of the form: {len(gzip.compress(schemas.content)) / 1e3:.0f} kB"

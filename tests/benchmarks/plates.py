@@ -61,12 +61,12 @@ KINDS = {
 def plate_and_radius(body: dict[str, Any]) -> tuple[OptimizeRequest, OptimizeRequest]:
     """A request with plates, and the same with radii: as far out as what was cut, with all that the plates hold."""
     request = OptimizeRequest.model_validate(body)
-    found, cut, plain = optimize(request), plates(request.machine), json.loads(json.dumps(body))
+    answer, cut, plain = optimize(request), plates(request.machine), json.loads(json.dumps(body))
     assert cut is not None
     most = cut.unbalance(cut.most).tolist()
-    for web, one, unbalance in zip(plain["machine"]["webs"], found.counterweights, most, strict=True):
+    for web, counterweight, unbalance in zip(plain["machine"]["webs"], answer.counterweights, most, strict=True):
         del web["envelope"]
-        web |= {"counterweight_radius_m": one.radius_m, "max_mass_kg": unbalance / one.radius_m}
+        web |= {"counterweight_radius_m": counterweight.radius_m, "max_mass_kg": unbalance / counterweight.radius_m}
     return request, OptimizeRequest.model_validate(plain)
 
 

@@ -85,10 +85,10 @@ class Measured:
 def measure(kind: str, workers: int, sleep_s: float, size: int, seconds: float) -> Measured:
     """What a service takes in while so many workers sleep for each of their pieces."""
     run = functools.partial(asleep, sleep_s, size)
-    with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as folder, engine(kind, workers) as found:
+    with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as folder, engine(kind, workers) as design:
         house = House(Path(folder))
         job = house.submit(_MOST_PIECES * ROWS, ROWS)
-        coordinator = house.coordinator_on(found, Pace(), run)
+        coordinator = house.coordinator_on(design, Pace(), run)
         coordinator.start()
         try:
             # until the first have come back and every worker has one
@@ -117,19 +117,19 @@ def main() -> None:
     parser.add_argument("--sleep", type=float, default=1.0, help="seconds of a piece")
     parser.add_argument("--bytes", type=int, default=1000, help=f"of a piece; {ROWS * ROW_BYTES} are a chunk of 2D12")
     parser.add_argument("--seconds", type=float, default=10.0)
-    asked = parser.parse_args()
-    table = Table(title=f"{asked.engine} that sleep {asked.sleep:g} s for pieces of {asked.bytes:,} bytes")
+    arguments = parser.parse_args()
+    table = Table(title=f"{arguments.engine} that sleep {arguments.sleep:g} s for pieces of {arguments.bytes:,} bytes")
     for heading in ("workers", "pieces/s", "of what they could", "CPU of the jobs' thread", "ms a piece", "MB/s"):
         table.add_column(heading, justify="right")
-    for workers in asked.workers:
-        found = measure(asked.engine, workers, asked.sleep, asked.bytes, asked.seconds)
+    for workers in arguments.workers:
+        measurement = measure(arguments.engine, workers, arguments.sleep, arguments.bytes, arguments.seconds)
         table.add_row(
             f"{workers:,}",
-            f"{found.rate:,.0f}",
-            f"{found.rate * asked.sleep / workers:.0%}",
-            f"{found.thread_s / found.seconds:.0%}",
-            f"{1e3 * found.thread_s / max(found.pieces, 1):.2f}",
-            f"{found.rate * asked.bytes / 1e6:,.1f}",
+            f"{measurement.rate:,.0f}",
+            f"{measurement.rate * arguments.sleep / workers:.0%}",
+            f"{measurement.thread_s / measurement.seconds:.0%}",
+            f"{1e3 * measurement.thread_s / max(measurement.pieces, 1):.2f}",
+            f"{measurement.rate * arguments.bytes / 1e6:,.1f}",
         )
     Console(width=120).print(table)
 

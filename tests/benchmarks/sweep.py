@@ -7,10 +7,10 @@ each design as matrices for nothing, prove nothing and write nothing; ours is ti
 the Parquet file, certificates included.
 """
 
-from tests.benchmarks.one_core import one_thread, pin
+from tests.benchmarks.single_core import pin, single_thread
 
 if __name__ == "__main__":
-    one_thread("tests.benchmarks.sweep")
+    single_thread("tests.benchmarks.sweep")
 
 import argparse
 import io
@@ -47,10 +47,10 @@ class Rate:
     def per_second(self) -> float:
         return self.designs / statistics.median(self.seconds)
 
-    def times(self, other: "Rate") -> float:
+    def times(self, rate: "Rate") -> float:
         """How much faster than another method: the median over the turns that followed each other."""
-        pairs = zip(self.seconds, other.seconds, strict=True)
-        return statistics.median((theirs / other.designs) / (mine / self.designs) for mine, theirs in pairs)
+        pairs = zip(self.seconds, rate.seconds, strict=True)
+        return statistics.median((theirs / rate.designs) / (mine / self.designs) for mine, theirs in pairs)
 
 
 def our_rows(request: SweepRequest) -> bytes:
@@ -92,9 +92,9 @@ def compare(request: SweepRequest, designs: tuple[int, int, int, int], turns: in
         for name, method in methods.items():
             rate, picks = rates[name], _picks(len(chosen), rates[name].designs)
             began = time.process_time()
-            found = method(picks)
+            stages = method(picks)
             _count(rate, time.process_time() - began, warm=turn > 0)
-            rate.worst = _worst(rate.worst, [chosen[i] for i in picks], found)
+            rate.worst = _worst(rate.worst, [chosen[i] for i in picks], stages)
         began = time.process_time()
         content = our_rows(request)
         _count(rates[OURS], time.process_time() - began, warm=turn > 0)
@@ -112,9 +112,9 @@ def _count(rate: Rate, seconds: float, warm: bool) -> None:
         rate.seconds.append(seconds)
 
 
-def _worst(known: Gaps, chosen: Sequence[Program], found: Sequence[Stages]) -> Gaps:
-    all_gaps = [known, *(gaps(program, stages) for program, stages in zip(chosen, found, strict=True))]
-    return Gaps(max(one.objective for one in all_gaps), max(one.mass for one in all_gaps))
+def _worst(value: Gaps, chosen: Sequence[Program], levels: Sequence[Stages]) -> Gaps:
+    all_gaps = [value, *(gaps(program, stages) for program, stages in zip(chosen, levels, strict=True))]
+    return Gaps(max(gap.objective for gap in all_gaps), max(gap.mass for gap in all_gaps))
 
 
 def at_limits(request: SweepRequest, rows: pa.Table) -> float:
@@ -145,7 +145,7 @@ def show(console: Console, request: SweepRequest, rates: dict[str, Rate], rows: 
         )
     console.print(table)
     status, method = rows["status"].to_pylist(), rows["method"].to_pylist()
-    referred = sum(one != INTERIOR_POINT for one in method)
+    referred = sum(value != INTERIOR_POINT for value in method)
     console.print(
         f"certified: {status.count('optimal')} of {len(status)}; by the reference solver: {referred} "
         f"({referred / len(status):.3%}); a counterweight at its limit in {at_limits(request, rows):.0%} of the designs"
@@ -156,11 +156,11 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--designs", type=int, default=20_000)
     parser.add_argument("--turns", type=int, default=7)
-    asked = parser.parse_args()
+    arguments = parser.parse_args()
     console = Console(width=120)
     console.print(f"on core {pin()}")
-    request = sweep(asked.designs)
-    show(console, request, *compare(request, (20, 100, 1000, 2000), asked.turns))
+    request = sweep(arguments.designs)
+    show(console, request, *compare(request, (20, 100, 1000, 2000), arguments.turns))
     sweep_time.show(console, request)
 
 

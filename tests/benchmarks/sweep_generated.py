@@ -82,7 +82,7 @@ class Compiled:
         assert values.shape == (count, self._nonzero)
         x, z, value = np.empty((count, columns)), np.empty((count, rows)), np.empty(count)
         every = [np.ascontiguousarray(np.broadcast_to(cost, (count, columns))), values, sides, x, z, value]
-        pointers: list[Any] = [each.ctypes.data_as(ctypes.POINTER(ctypes.c_double)) for each in every]
+        pointers: list[Any] = [values.ctypes.data_as(ctypes.POINTER(ctypes.c_double)) for values in every]
         self.unsolved = int(self._library.solve_all(count, ctypes.c_double(_TOLERANCE), *pointers))
         return x, z, value
 
@@ -95,9 +95,9 @@ class Generated:
         self._terms, self._webs = programs[0].influence.shape
         direct = Direct(programs[0])
         prepared = [direct.prepare(program) for program in programs]
-        self._values = [np.stack(values) for values in zip(*(one.values for one in prepared), strict=True)]
-        self._sides = [np.stack(sides) for sides in zip(*(one.sides for one in prepared), strict=True)]
-        self._costs = direct.first_cost, np.stack([one.mass for one in prepared])
+        self._values = [np.stack(values) for values in zip(*(entry.values for entry in prepared), strict=True)]
+        self._sides = [np.stack(sides) for sides in zip(*(entry.sides for entry in prepared), strict=True)]
+        self._costs = direct.first_cost, np.stack([entry.mass for entry in prepared])
         planes = self._webs + self._terms
         first, second = direct.matrices(programs[0])
         self._first = Compiled(self._costs[0], first, self._sides[0][0], 0, planes)
@@ -113,13 +113,13 @@ class Generated:
         """
         x, z, value = self._first.solve(self._costs[0], self._values[0], self._sides[0])
         self._sides[1][:, self._webs] = [
-            target(one, program) for one, program in zip(value, self._programs, strict=True)
+            target(value, program) for value, program in zip(value, self._programs, strict=True)
         ]
         x2, z2, _ = self._second.solve(self._costs[1], self._values[1], self._sides[1])
         if unsolved := self._first.unsolved + self._second.unsolved:
             raise ArithmeticError(f"{unsolved} of {2 * len(self._programs)} programs are left unsolved")
-        duals = [each[:, -3 * self._terms :].reshape(-1, self._terms, 3)[..., 1:] for each in (z, z2)]
-        places = [each[:, : 2 * self._webs].reshape(-1, self._webs, 2) for each in (x, x2)]
+        duals = [values[:, -3 * self._terms :].reshape(-1, self._terms, 3)[..., 1:] for values in (z, z2)]
+        places = [values[:, : 2 * self._webs].reshape(-1, self._webs, 2) for values in (x, x2)]
         return [
             Stages(p, p2, vectors_of(terms), vectors_of(terms2), price)
             for p, p2, terms, terms2, price in zip(*places, *duals, z2[:, self._webs], strict=True)

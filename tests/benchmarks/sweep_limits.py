@@ -8,10 +8,10 @@ the terms, and at most a cap for a limited response. The first minimises the sum
 of t at most the target.
 """
 
-from tests.benchmarks.one_core import one_thread, pin
+from tests.benchmarks.single_core import pin, single_thread
 
 if __name__ == "__main__":
-    one_thread("tests.benchmarks.sweep_limits")
+    single_thread("tests.benchmarks.sweep_limits")
 
 import argparse
 import io
@@ -108,9 +108,9 @@ def stages_of(program: Program, x: Sequence[Real], z: Sequence[Real], numbers: i
     """What both stages found, from their variables and multipliers."""
     terms, webs = program.influence.shape
     last = len(program.statement.ceilings.names)
-    duals = [vectors_of(each[-3 * (terms + last) :].reshape(-1, 3)[:, 1:]) for each in z]
-    places = [each[: 2 * webs].reshape(-1, 2) for each in x]
-    of_terms, of_ceilings = ([each[:terms] for each in duals], [each[terms:] for each in duals])
+    duals = [vectors_of(values[-3 * (terms + last) :].reshape(-1, 3)[:, 1:]) for values in z]
+    places = [values[: 2 * webs].reshape(-1, 2) for values in x]
+    of_terms, of_ceilings = ([dual[:terms] for dual in duals], [dual[terms:] for dual in duals])
     return Stages(*places, *of_terms, z[1][numbers - 1], *of_ceilings)
 
 
@@ -119,20 +119,22 @@ class Direct:
 
     def __init__(self, prepared: Sequence[tuple[Stage, Stage]], tuned: bool) -> None:
         self._solvers = []
-        for one in prepared[0]:
-            cones = [clarabel.NonnegativeConeT(one.numbers), *[clarabel.SecondOrderConeT(3)] * one.planes]
-            none = sparse.csc_matrix((one.cost.size, one.cost.size))
-            self._solvers.append(clarabel.DefaultSolver(none, one.cost, one.matrix, one.side, cones, settings(tuned)))
+        for level in prepared[0]:
+            cones = [clarabel.NonnegativeConeT(level.numbers), *[clarabel.SecondOrderConeT(3)] * level.planes]
+            none = sparse.csc_matrix((level.cost.size, level.cost.size))
+            self._solvers.append(
+                clarabel.DefaultSolver(none, level.cost, level.matrix, level.side, cones, settings(tuned))
+            )
 
     def solve(self, program: Program, both: tuple[Stage, Stage]) -> Stages:
-        (one, two), (first, second) = both, self._solvers
-        first.update(q=one.cost, A=one.matrix.data, b=one.side)
+        (level, two), (first, second) = both, self._solvers
+        first.update(q=level.cost, A=level.matrix.data, b=level.side)
         smallest = first.solve()
         two.side[two.numbers - 1] = target(smallest.obj_val, program)
         second.update(q=two.cost, A=two.matrix.data, b=two.side)
-        found = smallest, second.solve()
+        pair = smallest, second.solve()
         return stages_of(
-            program, [np.array(each.x) for each in found], [np.array(each.z) for each in found], two.numbers
+            program, [np.array(entry.x) for entry in pair], [np.array(entry.z) for entry in pair], two.numbers
         )
 
 
@@ -140,13 +142,14 @@ class Generated:
     """C for both stages, all designs in one call of each."""
 
     def __init__(self, chosen: Sequence[Program], prepared: Sequence[tuple[Stage, Stage]]) -> None:
-        self._programs, self._stages = chosen, [list(each) for each in zip(*prepared, strict=True)]
+        self._programs, self._stages = chosen, [list(value) for value in zip(*prepared, strict=True)]
         self._compiled = [
-            sweep_generated.Compiled(one.cost, one.matrix, one.side, one.numbers, one.planes) for one in prepared[0]
+            sweep_generated.Compiled(level.cost, level.matrix, level.side, level.numbers, level.planes)
+            for level in prepared[0]
         ]
-        self._values = [np.stack([one.matrix.data for one in each]) for each in self._stages]
-        self._sides = [np.stack([one.side for one in each]) for each in self._stages]
-        self._costs = [np.stack([one.cost for one in each]) for each in self._stages]
+        self._values = [np.stack([entry.matrix.data for entry in level]) for level in self._stages]
+        self._sides = [np.stack([entry.side for entry in level]) for level in self._stages]
+        self._costs = [np.stack([entry.cost for entry in level]) for level in self._stages]
 
     @property
     def unsolved(self) -> int:
@@ -154,14 +157,14 @@ class Generated:
         return sum(compiled.unsolved for compiled in self._compiled)
 
     def solve(self) -> list[Stages]:
-        numbers, found = self._stages[1][0].numbers, []
+        numbers, solutions = self._stages[1][0].numbers, []
         for k, compiled in enumerate(self._compiled):
             if k == 1:
-                values = found[0][2]
+                values = solutions[0][2]
                 pairs = zip(values, self._programs, strict=True)
                 self._sides[1][:, numbers - 1] = [target(value, program) for value, program in pairs]
-            found.append(compiled.solve(self._costs[k], self._values[k], self._sides[k]))
-        every = zip(self._programs, *(found[k][i] for i in range(2) for k in range(2)), strict=True)
+            solutions.append(compiled.solve(self._costs[k], self._values[k], self._sides[k]))
+        every = zip(self._programs, *(solutions[k][i] for i in range(2) for k in range(2)), strict=True)
         return [stages_of(program, [x, x2], [z, z2], numbers) for program, x, x2, z, z2 in every]
 
 
@@ -189,11 +192,11 @@ def compare(request: SweepRequest, designs: tuple[int, int], turns: int) -> tupl
     for turn in range(turns + 1):
         for name, (count, method) in methods.items():
             began = time.process_time()
-            found = method()
+            levels = method()
             if turn:
                 rates[name].seconds.append(time.process_time() - began)
-            each = [gaps(program, stages) for program, stages in zip(chosen[:count], found, strict=True)]
-            rates[name].worst = Gaps(*(float(np.percentile(part, 99)) for part in zip(*each, strict=True)))
+            actual_gaps = [gaps(program, stages) for program, stages in zip(chosen[:count], levels, strict=True)]
+            rates[name].worst = Gaps(*(float(np.percentile(part, 99)) for part in zip(*actual_gaps, strict=True)))
         began = time.process_time()
         content = our_rows(request)
         if turn:
@@ -229,12 +232,12 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--designs", type=int, default=5_000)
     parser.add_argument("--turns", type=int, default=5)
-    asked = parser.parse_args()
+    arguments = parser.parse_args()
     console = Console(width=120)
     console.print(f"on core {pin()}")
     for case in CASES:
-        request = limited(asked.designs, case)
-        show(console, case, request, *compare(request, (300, 1000), asked.turns))
+        request = limited(arguments.designs, case)
+        show(console, case, request, *compare(request, (300, 1000), arguments.turns))
 
 
 if __name__ == "__main__":

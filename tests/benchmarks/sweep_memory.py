@@ -81,11 +81,11 @@ def main() -> None:
     # a workbook takes no more than a million rows
     several = [name for name in FORMATS if name != "xlsx"]
     parser.add_argument("--formats", nargs="*", choices=several, default=several)
-    asked = parser.parse_args()
+    arguments = parser.parse_args()
     console = Console(width=120)
-    for task, designs in (("analyze", asked.analyze), ("optimize", asked.optimize)):
+    for task, designs in (("analyze", arguments.analyze), ("optimize", arguments.optimize)):
         if designs:
-            measure(console, sweep(designs, task), asked.workers, asked.formats)
+            measure(console, sweep(designs, task), arguments.workers, arguments.formats)
 
 
 if __name__ == "__main__":

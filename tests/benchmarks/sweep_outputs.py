@@ -3,10 +3,10 @@
 ``python -m tests.benchmarks.sweep_outputs``. In time of the core, which what else a machine does changes least.
 """
 
-from tests.benchmarks.one_core import one_thread
+from tests.benchmarks.single_core import single_thread
 
 if __name__ == "__main__":
-    one_thread("tests.benchmarks.sweep_outputs")
+    single_thread("tests.benchmarks.sweep_outputs")
 
 import argparse
 import time
@@ -66,8 +66,8 @@ def main() -> None:
         request = sweep(*axis, arguments.designs)
         seconds(sweep(*axis, 2))
         best = min((seconds(request) for _ in range(arguments.turns)), key=lambda parts: sum(parts.values()))
-        each = {part: 1e3 * best.get(part, 0.0) / arguments.designs for part in (*PARTS, _ELSE)}
-        table.add_row(name, f"{sum(each.values()):.3f}", *(f"{value:.3f}" for value in each.values()))
+        fields = {part: 1e3 * best.get(part, 0.0) / arguments.designs for part in (*PARTS, _ELSE)}
+        table.add_row(name, f"{sum(fields.values()):.3f}", *(f"{value:.3f}" for value in fields.values()))
     Console(width=120).print(table)
 
 

@@ -3,10 +3,10 @@
 ``python -m tests.benchmarks.sweep_over_turn``. In time of the core, which what else a machine does changes least.
 """
 
-from tests.benchmarks.one_core import one_thread
+from tests.benchmarks.single_core import single_thread
 
 if __name__ == "__main__":
-    one_thread("tests.benchmarks.sweep_over_turn")
+    single_thread("tests.benchmarks.sweep_over_turn")
 
 import argparse
 import time
@@ -99,9 +99,9 @@ def main() -> None:
         seconds(sweep(case, 2))
         request = sweep(case, arguments.designs)
         best = min((seconds(request) for _ in range(arguments.turns)), key=lambda parts: sum(parts.values()))
-        each = {name: 1e3 * best.get(name, 0.0) / arguments.designs for name in (*PARTS, _ELSE)}
-        whole = sum(each.values())
-        table.add_row(case.name, f"{1e3 / whole:.1f}", f"{whole:.1f}", *(f"{one:.1f}" for one in each.values()))
+        fields = {name: 1e3 * best.get(name, 0.0) / arguments.designs for name in (*PARTS, _ELSE)}
+        whole = sum(fields.values())
+        table.add_row(case.name, f"{1e3 / whole:.1f}", f"{whole:.1f}", *(f"{field:.1f}" for field in fields.values()))
     Console(width=150).print(table)
 
 

@@ -43,16 +43,19 @@ class Gaps(NamedTuple):
     mass: float  # relative to the mass
 
 
-def gaps(program: Program, found: Stages) -> Gaps:
+def gaps(program: Program, stages: Stages) -> Gaps:
     """Certified gaps of an answer, by the same closed-form bounds that our own answers are judged by."""
     statement = program.statement
-    first, last = (program.unbalance(p) for p in (found.smallest, found.lightest))
+    first, last = (program.unbalance(p) for p in (stages.smallest, stages.lightest))
     bound = float(
-        objective_lower_bound(statement, Multipliers(found.smallest_terms, np.ones(1), found.smallest_ceilings))
+        objective_lower_bound(statement, Multipliers(stages.smallest_terms, np.ones(1), stages.smallest_ceilings))
     )
     per_objective = program.mass_unit / program.unit
     multipliers = Multipliers(
-        *(each * per_objective for each in (found.lightest_terms, np.array([found.price]), found.lightest_ceilings))
+        *(
+            values * per_objective
+            for values in (stages.lightest_terms, np.array([stages.price]), stages.lightest_ceilings)
+        )
     )
     counted = max(float(statement.objective(first)), bound) + program.share * program.unit
     mass, lightest = float(statement.mass(last)), float(mass_lower_bound(statement, multipliers, np.asarray(counted)))
@@ -81,7 +84,7 @@ class _Built(NamedTuple):
     terms2: cp.Constraint
     budget: cp.Constraint
 
-    def found(self) -> Stages:
+    def stages(self) -> Stages:
         duals = [np.reshape(cone.dual_value[1].T, (-1, 2)) for cone in (self.terms, self.terms2)]
         return Stages(self.p.value, self.p2.value, *map(vectors_of, duals), float(self.budget.dual_value))
 
@@ -104,7 +107,7 @@ def rebuilt(program: Program) -> Stages:
     first.first.solve(cp.CLARABEL)
     both = _build(*data, target(first.first.value, program), *program.influence.shape)
     both.second.solve(cp.CLARABEL)
-    return both._replace(p=first.p, terms=first.terms).found()
+    return both._replace(p=first.p, terms=first.terms).stages()
 
 
 class Parametrised:
@@ -123,7 +126,7 @@ class Parametrised:
         self._built.first.solve(cp.CLARABEL)
         most.value = target(self._built.first.value, program)
         self._built.second.solve(cp.CLARABEL)
-        return self._built.found()
+        return self._built.stages()
 
 
 class Prepared(NamedTuple):
@@ -136,13 +139,13 @@ class Prepared(NamedTuple):
 
 def settings(tuned: bool) -> clarabel.DefaultSettings:
     """What clarabel is asked for: as it comes, or to no more digits than the gaps of the tables need."""
-    asked = clarabel.DefaultSettings()
-    asked.verbose = asked.presolve_enable = False
+    default_settings = clarabel.DefaultSettings()
+    default_settings.verbose = default_settings.presolve_enable = False
     if tuned:
-        asked.equilibrate_enable = asked.iterative_refinement_enable = False
-        asked.tol_gap_abs = asked.tol_gap_rel = asked.tol_feas = 1e-7
-        asked.max_step_fraction = 0.995
-    return asked
+        default_settings.equilibrate_enable = default_settings.iterative_refinement_enable = False
+        default_settings.tol_gap_abs = default_settings.tol_gap_rel = default_settings.tol_feas = 1e-7
+        default_settings.max_step_fraction = 0.995
+    return default_settings
 
 
 class Direct:
@@ -181,8 +184,8 @@ class Direct:
         first = np.concatenate([discs, constant])
         second = np.concatenate([np.ones(webs), [0.0], np.zeros(3 * webs), constant])
         mass = np.concatenate([np.zeros(2 * webs), program.mass, np.zeros(terms)])
-        one, two = self.matrices(program)
-        return Prepared((one.data, two.data), (first, second), mass)
+        value, two = self.matrices(program)
+        return Prepared((value.data, two.data), (first, second), mass)
 
     def matrices(self, program: Program) -> tuple[sparse.csc_matrix, sparse.csc_matrix]:
         """Variables p (x and y of each web in turn), f in the second stage, t."""
@@ -215,8 +218,10 @@ class Direct:
         side[webs] = target(smallest.obj_val, program)
         second.update(q=prepared.mass, A=prepared.values[1], b=side)
         lightest = second.solve()
-        duals = [np.array(found.z[-3 * terms :]).reshape(-1, 3)[:, 1:] for found in (smallest, lightest)]
-        places = [np.array(found.x[: 2 * webs]).reshape(-1, 2) for found in (smallest, lightest)]
+        duals = [
+            np.array(single_smallest.z[-3 * terms :]).reshape(-1, 3)[:, 1:] for single_smallest in (smallest, lightest)
+        ]
+        places = [np.array(single_smallest.x[: 2 * webs]).reshape(-1, 2) for single_smallest in (smallest, lightest)]
         return Stages(*places, *map(vectors_of, duals), lightest.z[webs])
 
 
@@ -233,8 +238,8 @@ class Batch:
         ]
         self._values = [np.stack([matrix.data for matrix in matrices]) for matrices in stages]
         prepared = [direct.prepare(program) for program in programs]
-        self._costs = np.tile(direct.first_cost, (len(programs), 1)), np.stack([one.mass for one in prepared])
-        self._sides = [np.stack(sides) for sides in zip(*(one.sides for one in prepared), strict=True)]
+        self._costs = np.tile(direct.first_cost, (len(programs), 1)), np.stack([entry.mass for entry in prepared])
+        self._sides = [np.stack(sides) for sides in zip(*(entry.sides for entry in prepared), strict=True)]
         planes = [3] * (self._webs + self._terms)
         cones = moreau.Cones(so_cone_dims=planes), moreau.Cones(num_nonneg_cones=self._webs + 1, so_cone_dims=planes)
         self._solvers = [self._compiled(matrices[0], cone) for matrices, cone in zip(stages, cones, strict=True)]
@@ -257,8 +262,14 @@ class Batch:
         pairs = zip(values, self._programs, strict=True)
         self._sides[1][:, self._webs] = [target(value, program) for value, program in pairs]
         lightest = self._stage(1)
-        duals = [found.z[:, -3 * self._terms :].reshape(-1, self._terms, 3)[..., 1:] for found in (smallest, lightest)]
-        places = [found.x[:, : 2 * self._webs].reshape(-1, self._webs, 2) for found in (smallest, lightest)]
+        duals = [
+            single_smallest.z[:, -3 * self._terms :].reshape(-1, self._terms, 3)[..., 1:]
+            for single_smallest in (smallest, lightest)
+        ]
+        places = [
+            single_smallest.x[:, : 2 * self._webs].reshape(-1, self._webs, 2)
+            for single_smallest in (smallest, lightest)
+        ]
         prices = lightest.z[:, self._webs]
         return [
             Stages(p, p2, vectors_of(terms), vectors_of(terms2), price)

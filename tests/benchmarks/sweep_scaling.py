@@ -89,22 +89,24 @@ def main() -> None:
     parser.add_argument("--designs", type=int, default=300_000)
     parser.add_argument("--turns", type=int, default=3)
     parser.add_argument("--engine", choices=["processes", "dask"], default="processes")
-    asked = parser.parse_args()
-    request = sweep(asked.designs)
+    arguments = parser.parse_args()
+    request = sweep(arguments.designs)
     ways: dict[str, Callable[[SweepRequest, int], float]] = {
-        f"service, {asked.engine}": lambda request, workers: through_the_service(asked.engine, request, workers),
+        f"service, {arguments.engine}": lambda request, workers: through_the_service(
+            arguments.engine, request, workers
+        ),
         "processes alone": without_a_service,
     }
     taken: dict[tuple[str, int], list[float]] = {(way, workers): [] for way in ways for workers in WORKERS}
-    for _ in range(asked.turns):
-        for (way, workers), found in taken.items():
-            found.append(ways[way](request, workers))
-    table = Table(title=f"{request.total:,} designs of the 2D12 with 8 webs, median of {asked.turns} turns")
+    for _ in range(arguments.turns):
+        for (way, workers), values in taken.items():
+            values.append(ways[way](request, workers))
+    table = Table(title=f"{request.total:,} designs of the 2D12 with 8 webs, median of {arguments.turns} turns")
     for heading in ("way", "workers", "s", "designs/s", "times one worker"):
         table.add_column(heading, justify="left" if heading == "way" else "right")
-    for (way, workers), found in taken.items():
-        middle = statistics.median(found)
-        gain = statistics.median(one / many for one, many in zip(taken[way, 1], found, strict=True))
+    for (way, workers), entries in taken.items():
+        middle = statistics.median(entries)
+        gain = statistics.median(value / many for value, many in zip(taken[way, 1], entries, strict=True))
         table.add_row(way, str(workers), f"{middle:.1f}", f"{request.total / middle:,.0f}", f"{gain:.2f}")
     Console(width=120).print(table)
 

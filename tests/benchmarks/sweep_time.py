@@ -56,11 +56,11 @@ def solved(request: SweepRequest, designs: int) -> list[tuple[Any, ...]]:
     calls: list[tuple[Any, ...]] = []
     solve = discs.solve
 
-    def kept(*arguments: Any) -> Any:
+    def recorder(*arguments: Any) -> Any:
         calls.append(arguments)
         return solve(*arguments)
 
-    with patch.object(discs, "solve", kept):
+    with patch.object(discs, "solve", recorder):
         KINDS["sweep"].compute(request.model_dump_json().encode(), 0, designs, lambda: None)
     return calls
 
@@ -91,14 +91,14 @@ def peak_rate(size: int = 768, repeats: int = 12) -> float:
 def show(console: Console, request: SweepRequest) -> None:
     """Both tables."""
     taken = [where_the_time_goes(request) for _ in range(3)]
-    seconds = min(taken, key=lambda one: sum(one.values()))
+    seconds = min(taken, key=lambda fields: sum(fields.values()))
     share, total = first_stage_share(request), sum(seconds.values())
     both = seconds.pop(_STAGES)
     seconds = {"program, stage 1": share * both, "program, stage 2": (1.0 - share) * both, **seconds}
     table = Table(title=f"where the time goes: {1e6 * total / request.total:.1f} us a design")
     for heading in ("part", "us a design", "share"):
         table.add_column(heading, justify="left" if heading == "part" else "right")
-    for name, value in sorted(seconds.items(), key=lambda one: -one[1]):
+    for name, value in sorted(seconds.items(), key=lambda second: -second[1]):
         table.add_row(name, f"{1e6 * value / request.total:.2f}", f"{value / total:.1%}")
     console.print(table)
     operations, iterations = operations_per_program(solved(request, 12))

@@ -17,8 +17,8 @@ from tests.studies.matching.cases import mirrored
 
 @pytest.mark.parametrize("build", CASES.values(), ids=CASES)
 def test_every_case_is_certified(build: Callable[[], bytes]) -> None:
-    found = optimize(OptimizeRequest.model_validate_json(build()))
-    assert found.status == "optimal"
+    answer = optimize(OptimizeRequest.model_validate_json(build()))
+    assert answer.status == "optimal"
 
 
 def test_phases_add_up() -> None:
@@ -59,20 +59,20 @@ def test_broadcasting_case_runs() -> None:
 
 
 def test_choices_are_those_of_scip_independent() -> None:
-    found = discrete.beside(discrete.choice(6, None, masses=3), 1, 1e9)
-    assert found.ours_gap <= 1e-4
-    assert abs(found.apart) <= 2e-4
+    value = discrete.beside(discrete.choice(6, None, masses=3), 1, 1e9)
+    assert value.ours_gap <= 1e-4
+    assert abs(value.apart) <= 2e-4
 
 
 @pytest.mark.parametrize("cranks", part(2, [discrete.in_some_order(6), mirrored(6)]))
 def test_matches_are_those_of_scip_independent(cranks: list[float]) -> None:
-    found = discrete.matched_beside(discrete.rows_matched(cranks), 1, 1e9)
-    assert max(found.ours_gap, found.theirs_gap) <= 1e-4
-    assert abs(found.apart) <= 2e-4
+    value = discrete.matched_beside(discrete.rows_matched(cranks), 1, 1e9)
+    assert max(value.ours_gap, value.theirs_gap) <= 1e-4
+    assert abs(value.apart) <= 2e-4
 
 
 def test_what_else_is_chosen_runs() -> None:
-    assert min(discrete.others(1).values()) > 0
+    assert min(discrete.rival_seconds(1).values()) > 0
 
 
 @pytest.mark.parametrize("body", plates.KINDS.values(), ids=plates.KINDS)

@@ -43,11 +43,13 @@ def test_the_methods_find_the_same_mass(request_: SweepRequest) -> None:
     if sweep_generated.available():
         batches.append(sweep_generated.Generated(chosen).solve())
     for program, *of_batches in zip(chosen, *batches, strict=True):
-        alone = [one.solve(program, one.prepare(program)) for one in (Direct(program), Direct(program, tuned=True))]
-        found = [rebuilt(program), Parametrised(program)(program), *alone, *of_batches]
-        masses = [float(program.statement.mass(program.unbalance(stages.lightest))) for stages in found]
+        alone = [
+            entry.solve(program, entry.prepare(program)) for entry in (Direct(program), Direct(program, tuned=True))
+        ]
+        values = [rebuilt(program), Parametrised(program)(program), *alone, *of_batches]
+        masses = [float(program.statement.mass(program.unbalance(stages.lightest))) for stages in values]
         assert masses == pytest.approx([masses[0]] * len(masses), rel=1e-5)
-        assert max(gaps(program, stages).objective for stages in found) <= 1e-6
+        assert max(gaps(program, stages).objective for stages in values) <= 1e-6
 
 
 @pytest.mark.parametrize(
@@ -94,9 +96,9 @@ def test_counted_operations(request_: SweepRequest) -> None:
 @pytest.mark.nightly
 def test_scaling_and_memory_run() -> None:
     # other tests in this process may have workers of theirs
-    others = sweep_memory.workers()
+    workers = sweep_memory.workers()
     assert sweep_scaling.through_the_service("processes", sweep(50), 1) > 0
-    _, alive = psutil.wait_procs([each for each in sweep_memory.workers() if each not in others], timeout=180)
+    _, alive = psutil.wait_procs([worker for worker in sweep_memory.workers() if worker not in workers], timeout=180)
     assert alive == []
 
 

@@ -4,10 +4,10 @@
 changes least.
 """
 
-from tests.benchmarks.one_core import one_thread
+from tests.benchmarks.single_core import single_thread
 
 if __name__ == "__main__":
-    one_thread("tests.benchmarks.whole_turn")
+    single_thread("tests.benchmarks.whole_turn")
 
 import argparse
 import statistics
@@ -129,8 +129,14 @@ def main() -> None:
         table.add_column(heading, justify="left" if heading == "case" else "right")
     for name, build in MACHINES.items():
         for least_mass in (False, True):
-            found = times(build(), least_mass, repeats)
-            row = (f"{found.solving:.1f}", f"{found.whole:.1f}", str(found.rounds), str(found.cuts), f"{found.gap:.1e}")
+            actual_times = times(build(), least_mass, repeats)
+            row = (
+                f"{actual_times.solving:.1f}",
+                f"{actual_times.whole:.1f}",
+                str(actual_times.rounds),
+                str(actual_times.cuts),
+                f"{actual_times.gap:.1e}",
+            )
             table.add_row(name, "yes" if least_mass else "no", *row)
     console = Console(width=120)
     console.print(table)

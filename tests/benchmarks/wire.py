@@ -48,16 +48,16 @@ class Target:
     def cpu_s(self) -> tuple[float, float]:
         """CPU time so far of the process itself, and of all that it has started [s]."""
         front = psutil.Process(self.pid)
-        others = 0.0
-        for each in front.children(recursive=True):
+        total = 0.0
+        for child in front.children(recursive=True):
             # it may have just ended
             with suppress(psutil.NoSuchProcess):
-                others += sum(each.cpu_times()[:2])
-        return sum(front.cpu_times()[:2]), others
+                total += sum(child.cpu_times()[:2])
+        return sum(front.cpu_times()[:2]), total
 
 
 @dataclass
-class Seen:
+class Timings:
     """Answers of one run, what they took [s], and what they cost clients, front and workers [s of CPU]."""
 
     seconds: list[float] = field(default_factory=list)
@@ -76,12 +76,12 @@ class Seen:
     def per_second(self) -> float:
         return len(self.seconds) / self.wall_s
 
-    def each_ms(self, seconds: float) -> float:
+    def answer_ms(self, seconds: float) -> float:
         """So much of the whole for each answer."""
         return 1e3 * seconds / len(self.seconds)
 
 
-async def asked(target: Target, clients: int, kept: bool, seconds: float) -> Seen:
+async def client_timings(target: Target, clients: int, lasting: bool, seconds: float) -> Timings:
     """Clients that ask for the same again and again, each on one connection or each time on a new one.
 
     Raises
@@ -89,8 +89,8 @@ async def asked(target: Target, clients: int, kept: bool, seconds: float) -> See
     AssertionError
         if anything but 200 comes.
     """
-    seen = Seen()
-    raw = request("POST", target.path, BODY, {"Connection": "keep-alive" if kept else "close"})
+    timings = Timings()
+    raw = request("POST", target.path, BODY, {"Connection": "keep-alive" if lasting else "close"})
     begun, own, before = time.perf_counter(), time.process_time(), target.cpu_s()
     end = begun + seconds
 
@@ -100,23 +100,23 @@ async def asked(target: Target, clients: int, kept: bool, seconds: float) -> See
         _, connection = await loop.create_connection(Exchange, "127.0.0.1", target.port)
         while True:
             at = time.perf_counter()
-            if not kept:
+            if not lasting:
                 connection.close()
                 _, connection = await loop.create_connection(Exchange, "127.0.0.1", target.port)
             body = await connection.reply(raw)
-            seen.seconds.append(time.perf_counter() - at)
+            timings.seconds.append(time.perf_counter() - at)
             if (optimum := _OPTIMUM.search(body)) is not None:
-                seen.optima_ms.append(float(optimum[1]))
+                timings.optima_ms.append(float(optimum[1]))
             if time.perf_counter() > end:
                 connection.close()
                 return
 
     async with asyncio.timeout(seconds + _WITHIN_S):
         await asyncio.gather(*(client() for _ in range(clients)))
-    seen.wall_s, seen.clients_s = time.perf_counter() - begun, time.process_time() - own
+    timings.wall_s, timings.clients_s = time.perf_counter() - begun, time.process_time() - own
     after = target.cpu_s()
-    seen.front_s, seen.workers_s = (now - then for now, then in zip(after, before, strict=True))
-    return seen
+    timings.front_s, timings.workers_s = (now - then for now, then in zip(after, before, strict=True))
+    return timings
 
 
 @contextmanager
@@ -134,16 +134,16 @@ def echoing() -> Iterator[Target]:
             process.wait(180)
 
 
-def measure(clients: Sequence[int], seconds: float) -> Iterator[tuple[Target, int, bool, Seen]]:
+def measure(clients: Sequence[int], seconds: float) -> Iterator[tuple[Target, int, bool, Timings]]:
     """Every number of clients on kept and on new connections; service and echo take turns."""
     with service(fresh=True, log_level="warning", rate_limit="") as running, echoing() as echo:
         ours = Target("service", running.process.pid, running.port, "/v1/optimize")
         for target in (ours, echo):
-            asyncio.run(asked(target, 2, kept=True, seconds=min(1.0, seconds)))
+            asyncio.run(client_timings(target, 2, lasting=True, seconds=min(1.0, seconds)))
         for count in clients:
-            for kept in (True, False):
+            for value in (True, False):
                 for target in (ours, echo):
-                    yield target, count, kept, asyncio.run(asked(target, count, kept, seconds))
+                    yield target, count, value, asyncio.run(client_timings(target, count, value, seconds))
 
 
 def show(console: Console, clients: Sequence[int], seconds: float) -> None:
@@ -163,22 +163,22 @@ def show(console: Console, clients: Sequence[int], seconds: float) -> None:
         "optimum",
     ):
         table.add_column(heading, justify="left" if heading in ("", "connections") else "right")
-    kept_p50: dict[tuple[str, int], float] = {}
+    p50s: dict[tuple[str, int], float] = {}
     ratios = []
-    for target, count, kept, seen in measure(clients, seconds):
-        p50, p99 = seen.quantile_ms(0.5), seen.quantile_ms(0.99)
-        if kept:
-            kept_p50[target.name, count] = p50
+    for target, count, verdict, timings in measure(clients, seconds):
+        p50, p99 = timings.quantile_ms(0.5), timings.quantile_ms(0.99)
+        if verdict:
+            p50s[target.name, count] = p50
         elif target.name == "service":
-            ratios.append(f"{count}: {kept_p50[target.name, count] / p50:.2f}")
-        optimum = f"{statistics.median(seen.optima_ms):.2f}" if seen.optima_ms else ""
+            ratios.append(f"{count}: {p50s[target.name, count] / p50:.2f}")
+        optimum = f"{statistics.median(timings.optima_ms):.2f}" if timings.optima_ms else ""
         table.add_row(
             target.name,
             str(count),
-            "kept" if kept else "new",
-            f"{seen.per_second:.0f}",
-            *(f"{each:.2f}" for each in (p50, p99, p99 / p50)),
-            *(f"{seen.each_ms(each):.2f}" for each in (seen.clients_s, seen.front_s, seen.workers_s)),
+            "kept" if verdict else "new",
+            f"{timings.per_second:.0f}",
+            *(f"{value:.2f}" for value in (p50, p99, p99 / p50)),
+            *(f"{timings.answer_ms(s):.2f}" for s in (timings.clients_s, timings.front_s, timings.workers_s)),
             optimum,
         )
     console.print(table)

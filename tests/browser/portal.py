@@ -91,11 +91,11 @@ class Portal:
     requests: list[Request] = field(default_factory=list)
 
     def __post_init__(self) -> None:
-        self.page.on("console", self._heard)
+        self.page.on("console", self._note)
         self.page.on("pageerror", lambda error: self.troubles.append(f"uncaught: {error}"))
         self.page.on("request", lambda request: self.requests.append(request))
 
-    def _heard(self, message: ConsoleMessage) -> None:
+    def _note(self, message: ConsoleMessage) -> None:
         provoked = any(f"status of {status}" in message.text for status in self.refusals)
         if message.type in ("error", "warning") and not provoked:
             self.troubles.append(f"{message.type}: {message.text}")
@@ -104,8 +104,8 @@ class Portal:
     def strangers(self) -> set[str]:
         """Everything that was asked of anybody but the service."""
         home = urlsplit(self.url).netloc
-        asked = (urlsplit(request.url) for request in self.requests)
-        return {url.geturl() for url in asked if url.scheme not in ("data", "blob") and url.netloc != home}
+        split_results = (urlsplit(request.url) for request in self.requests)
+        return {url.geturl() for url in split_results if url.scheme not in ("data", "blob") and url.netloc != home}
 
     def clear(self) -> None:
         """Forget what was seen, before the page is another test's."""

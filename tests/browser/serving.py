@@ -27,10 +27,10 @@ def serving(folder: Path, **settings: str) -> Iterator[str]:
     ):
         try:
             assert process.stdout is not None
-            said = _URL.search(process.stdout.readline())
-            assert said, (folder / "log").read_text()
-            _wait(said[0])
-            yield said[0]
+            match = _URL.search(process.stdout.readline())
+            assert match, (folder / "log").read_text()
+            _wait(match[0])
+            yield match[0]
         finally:
             process.terminate()
             process.wait(180)

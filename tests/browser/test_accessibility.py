@@ -62,8 +62,8 @@ def serious(portal: Portal, within: str | None = None, without: str | None = Non
     if not portal.page.evaluate("'axe' in globalThis"):
         portal.page.evaluate(AXE_SCRIPT)
     # nothing is made of what is right, which takes longer than to look
-    found = portal.page.evaluate(_VIOLATIONS, [within, without, {"resultTypes": ["violations"], **options}])
-    return [(rule, nodes) for rule, impact, nodes in found if impact in SERIOUS]
+    figures = portal.page.evaluate(_VIOLATIONS, [within, without, {"resultTypes": ["violations"], **options}])
+    return [(rule, nodes) for rule, impact, nodes in figures if impact in SERIOUS]
 
 
 @pytest.mark.parametrize("options", [Look()])
@@ -71,8 +71,8 @@ def serious(portal: Portal, within: str | None = None, without: str | None = Non
 def test_examples_and_the_beginning_in_both_colours(portal: Portal, url: str, which: str) -> None:
     portal.page.goto(f"{url}/")
     portal.page.get_by_role("heading", name="Begin with your machine").wait_for()
-    names = [one["name"] for one in ask(url, "/v1/examples")["examples"]]
-    found = {}
+    names = [example["name"] for example in ask(url, "/v1/examples")["examples"]]
+    fields = {}
     for name in ("", *(names if which == "all" else ())):
         if name:
             portal.page.select_option("#example", name)
@@ -82,8 +82,8 @@ def test_examples_and_the_beginning_in_both_colours(portal: Portal, url: str, wh
         for scheme in SCHEMES:
             portal.page.emulate_media(color_scheme=scheme)
             # but for its colours the page is the same in both
-            found[name, scheme] = serious(portal, **({} if scheme == "light" else {"runOnly": ["cat.color"]}))
-    assert {where: what for where, what in found.items() if what} == {}
+            fields[name, scheme] = serious(portal, **({} if scheme == "light" else {"runOnly": ["cat.color"]}))
+    assert {where: what for where, what in fields.items() if what} == {}
 
 
 @pytest.mark.parametrize("options", [Look()])
@@ -93,11 +93,11 @@ def test_the_theme_can_be_chosen(portal: Portal) -> None:
     def background() -> Any:
         return portal.page.evaluate("getComputedStyle(document.body).backgroundColor")
 
-    seen = {}
+    backgrounds = {}
     for _ in range(3):
         button = portal.page.locator("#theme")
         button.click()
-        seen[button.inner_text()] = background()
-    assert seen["Theme: light"] == "rgb(255, 255, 255)"
-    assert seen["Theme: dark"] == "rgb(18, 22, 27)"
-    assert seen["Theme: auto"] in seen["Theme: light"] + seen["Theme: dark"]
+        backgrounds[button.inner_text()] = background()
+    assert backgrounds["Theme: light"] == "rgb(255, 255, 255)"
+    assert backgrounds["Theme: dark"] == "rgb(18, 22, 27)"
+    assert backgrounds["Theme: auto"] in backgrounds["Theme: light"] + backgrounds["Theme: dark"]

@@ -16,9 +16,9 @@ from service.settings import Settings
 
 
 def _get(url: str, **headers: str) -> tuple[int, Message, bytes]:
-    given = {name.replace("_", "-"): value for name, value in headers.items()}
+    fields = {name.replace("_", "-"): value for name, value in headers.items()}
     try:
-        with urllib.request.urlopen(urllib.request.Request(url, headers=given), timeout=180) as answer:
+        with urllib.request.urlopen(urllib.request.Request(url, headers=fields), timeout=180) as answer:
             return answer.status, answer.headers, answer.read()
     except urllib.error.HTTPError as error:
         return error.code, error.headers, error.read()
@@ -80,9 +80,9 @@ def test_nothing_else_is_served(url: str, name: str) -> None:
 
 
 def test_the_page_asks_for_one_file_of_each_kind_of_this_release() -> None:
-    asked = re.findall(rb'(?:src|href)="portal/(\w+)/([\w.]+)"', page())
-    assert sorted(asked) == [(release().encode(), name) for name in (b"icon.svg", b"page.css", b"page.js")]
-    assert {name.decode() for _, name in asked} | {"schemas.json", PLOTS} == set(names())
+    matches = re.findall(rb'(?:src|href)="portal/(\w+)/([\w.]+)"', page())
+    assert sorted(matches) == [(release().encode(), name) for name in (b"icon.svg", b"page.css", b"page.js")]
+    assert {name.decode() for _, name in matches} | {"schemas.json", PLOTS} == set(names())
 
 
 def test_every_module_and_every_style_is_in_the_page() -> None:

@@ -61,7 +61,7 @@ def come(portal: Portal, routes: list[Route]) -> None:
     portal.page.evaluate(_SETTLED)
 
 
-def until_asked(portal: Portal, routes: list[Route]) -> None:
+def wait_for_request(portal: Portal, routes: list[Route]) -> None:
     while not routes:
         portal.page.wait_for_timeout(10)
 
@@ -94,7 +94,7 @@ def expect_nothing_else(portal: Portal) -> None:
     portal.page.wait_for_function(_DRAWN, polling=POLLING_MS)
     here = portal.page.evaluate("location.hash")
     assert here.startswith(f"#example={GONE_TO}&")
-    assert [one for one in portal.page.evaluate("written") if one[1] == here] == []
+    assert [figure for figure in portal.page.evaluate("written") if figure[1] == here] == []
     portal.page.go_forward()
 
 
@@ -104,10 +104,10 @@ def test_an_answer_that_comes_after_one_has_left(two_places: Portal) -> None:
     portal.page.wait_for_url("**#r=*")
     with held(portal, "/v1/optimize") as answers, held(portal, f"/v1/examples/{GONE_TO}") as machines:
         portal.page.click("#optimise")
-        until_asked(portal, answers)
+        wait_for_request(portal, answers)
         portal.page.evaluate(_WATCH)
         back(portal)
-        until_asked(portal, machines)
+        wait_for_request(portal, machines)
         # the answer comes while nothing of the other place is there
         come(portal, answers)
         expect(portal.page.locator("#progress")).to_contain_text("Answered")
@@ -135,7 +135,7 @@ def test_an_example_that_comes_after_one_has_left(two_places: Portal) -> None:
     portal.page.evaluate(_WATCH)
     with held(portal, f"/v1/examples/{LATE}") as machines:
         portal.page.select_option("#example", LATE)
-        until_asked(portal, machines)
+        wait_for_request(portal, machines)
         back(portal)
         come(portal, machines)
     expect_nothing_else(portal)

@@ -10,14 +10,14 @@ from tests.browser.portal import Portal
 
 
 def test_the_answer_is_checked_once_it_is_shown(portal: Portal) -> None:
-    asked: list[str] = []
-    portal.page.on("request", lambda request: asked.append(request.url.rpartition("/v1/")[2]))
+    parts: list[str] = []
+    portal.page.on("request", lambda request: parts.append(request.url.rpartition("/v1/")[2]))
     portal.open("2d12")
     note = portal.page.locator("#answer .checked")
     expect(note).to_have_text(re.compile(r"^checked: (\d+) of \1 claims, and every one holds\.$"))
     # every number that the page asks for first, its hodographs among them
     assert int(note.inner_text().split()[1]) > 1500
-    assert asked.index("optimize") < asked.index("verify")
+    assert parts.index("optimize") < parts.index("verify")
 
 
 def test_what_is_not_covered_is_named(portal: Portal) -> None:
@@ -31,9 +31,9 @@ def test_what_is_not_covered_is_named(portal: Portal) -> None:
 def test_a_broken_claim_stands_out(portal: Portal) -> None:
     def falsified(route: Route) -> None:
         reply = route.fetch()
-        found: dict[str, Any] = reply.json()
-        found["total_mass_kg"] *= 1.001
-        route.fulfill(response=reply, body=json.dumps(found))
+        document: dict[str, Any] = reply.json()
+        document["total_mass_kg"] *= 1.001
+        route.fulfill(response=reply, body=json.dumps(document))
 
     portal.page.route("**/v1/optimize", falsified)
     portal.open("v8-cross-plane")

@@ -106,9 +106,14 @@ def test_counterweights_come_first(portal: Portal, url: str) -> None:
     answer = ask(url, "/v1/optimize", ask(url, "/v1/examples/plate-single"))
     first = portal.page.locator("#answer > :not(h2)").first
     rows = cells(first)
-    for row, one in zip(rows, answer["counterweights"], strict=True):
-        assert row[0] == one["web"]
+    for row, counterweight in zip(rows, answer["counterweights"], strict=True):
+        assert row[0] == counterweight["web"]
         figures = [number(text) for text in row[1:6]]
-        expected = [one["mass_kg"], 1e3 * one["position_m"], 1e3 * one["radius_m"], one["angle_from_crank_deg"]]
-        assert figures == pytest.approx([*expected, one["angle_deg"]], rel=1e-4)
+        expected = [
+            counterweight["mass_kg"],
+            1e3 * counterweight["position_m"],
+            1e3 * counterweight["radius_m"],
+            counterweight["angle_from_crank_deg"],
+        ]
+        assert figures == pytest.approx([*expected, counterweight["angle_deg"]], rel=1e-4)
     assert [row[6].split(",")[0] for row in rows] == ["segment", "sector"]

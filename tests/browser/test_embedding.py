@@ -38,11 +38,11 @@ def _site() -> Iterator[str]:
 def sites(tmp_path_factory: pytest.TempPathFactory) -> Iterator[tuple[str, str, str]]:
     """A service, the portal that it knows, and one that it does not know."""
     with (
-        _site() as known,
+        _site() as site,
         _site() as stranger,
-        serving(tmp_path_factory.mktemp("service"), frame_origins=known) as url,
+        serving(tmp_path_factory.mktemp("service"), frame_origins=site) as url,
     ):
-        yield url, known, stranger
+        yield url, site, stranger
 
 
 @pytest.fixture
@@ -58,17 +58,17 @@ def _open(page: Page, portal: str, url: str) -> None:
 
 
 def test_a_portal_gives_a_machine_and_takes_answer_and_picture(page: Page, sites: tuple[str, str, str]) -> None:
-    url, known, _ = sites
+    url, site, _ = sites
     troubles: list[str] = []
-    page.on("console", lambda said: troubles.append(said.text) if said.type in ("error", "warning") else None)
-    _open(page, known, url)
+    page.on("console", lambda message: troubles.append(message.text) if message.type in ("error", "warning") else None)
+    _open(page, site, url)
     page.click("#send")
     page.wait_for_function("document.getElementById('verdict').textContent.startsWith('optimal')", polling=POLLING_MS)
     page.wait_for_function("document.getElementById('picture').naturalWidth > 0", polling=POLLING_MS)
     frame = page.frame_locator("#service")
     assert frame.locator("body > header").is_hidden()
     frame.locator("#results[data-drawn]").wait_for()
-    shown = page.locator("#verdict").inner_text()
+    passage = page.locator("#verdict").inner_text()
     machine = {
         "kind": "reciprocating",
         "speed_rpm": 980,
@@ -84,7 +84,7 @@ def test_a_portal_gives_a_machine_and_takes_answer_and_picture(page: Page, sites
         ],
     }  # fmt: skip
     # independent: the same machine without the page
-    assert shown == f"optimal: {ask(url, '/v1/optimize', {'machine': machine})['total_mass_kg']:.2f} kg"
+    assert passage == f"optimal: {ask(url, '/v1/optimize', {'machine': machine})['total_mass_kg']:.2f} kg"
     # the frame is as high as the page in it, which scrolls no more
     page.wait_for_function(
         "() => Math.abs(document.getElementById('service').clientHeight - "
@@ -96,17 +96,17 @@ def test_a_portal_gives_a_machine_and_takes_answer_and_picture(page: Page, sites
 
 
 def test_what_is_wrong_with_the_machine_is_said_to_the_portal(page: Page, sites: tuple[str, str, str]) -> None:
-    url, known, _ = sites
-    _open(page, known, url)
+    url, site, _ = sites
+    _open(page, site, url)
     page.fill("#speed", "-1")
     page.click("#send")
     page.wait_for_function("document.getElementById('verdict').textContent.startsWith('Refused: ')", polling=POLLING_MS)
 
 
 def test_the_page_hears_nobody_but_its_portal(page: Page, sites: tuple[str, str, str]) -> None:
-    url, known, _ = sites
-    _open(page, known, url)
-    (frame,) = [one for one in page.frames if one.url.startswith(url)]
+    url, site, _ = sites
+    _open(page, site, url)
+    (frame,) = [page_frame for page_frame in page.frames if page_frame.url.startswith(url)]
     frame.get_by_role("heading", name="Begin with your machine").wait_for()
     # from within the frame itself, whose origin is not the portal's
     frame.evaluate("() => postMessage({type: 'counterweight.machine', machine: {kind: 'scroll'}}, location.origin)")
@@ -120,10 +120,10 @@ def test_the_page_hears_nobody_but_its_portal(page: Page, sites: tuple[str, str,
 
 def test_a_stranger_may_not_frame_it(page: Page, sites: tuple[str, str, str]) -> None:
     url, _, stranger = sites
-    with page.expect_console_message(lambda said: "frame-ancestors" in said.text):
+    with page.expect_console_message(lambda message: "frame-ancestors" in message.text):
         page.goto(f"{stranger}/?service={url}")
     assert page.locator("#send").is_disabled()
-    assert not [one for one in page.frames if one.url.startswith(url)]
+    assert not [frame for frame in page.frames if frame.url.startswith(url)]
 
 
 #: messages that a portal may send by mistake: what can be cloned for another window is far more than JSON
@@ -189,10 +189,10 @@ _ANSWERS = (
 def test_a_message_that_is_no_machine_is_answered_and_the_next_one_is_heard(
     page: Page, sites: tuple[str, str, str]
 ) -> None:
-    url, known, _ = sites
+    url, site, _ = sites
     troubles: list[str] = []
     page.on("pageerror", lambda error: troubles.append(str(error)))
-    _open(page, known, url)
+    _open(page, site, url)
     answers = page.evaluate(_ANSWERS)
     assert [answer for answer in answers if not answer.startswith("error ")] == []
     assert troubles == []

@@ -111,7 +111,7 @@ def test_things_are_added_and_removed(portal: Portal) -> None:
     assert len({web["name"] for web in machine["webs"]}) == 5
     assert machine["webs"][4]["position_m"] == 0.5
     assert machine["webs"][4]["sector"]["centre_deg"] == 170
-    assert [each["name"] for each in machine["throws"]] == ["2"]
+    assert [throw["name"] for throw in machine["throws"]] == ["2"]
     assert portal.page.locator("#answer .sector").count() == 1
 
 

@@ -35,7 +35,7 @@ def _type(portal: Portal, **values: str) -> None:
 def _cylinders(portal: Portal) -> list[Any]:
     portal.optimise()
     throws = portal.bodies("/v1/optimize")[-1]["machine"]["throws"]
-    return [row["cylinder"] for each in throws for row in each["rows"]]
+    return [row["cylinder"] for throw in throws for row in throw["rows"]]
 
 
 def test_a_pressure_pasted_anywhere_goes_to_all_cylinders_in_their_firing_order(portal: Portal) -> None:
@@ -50,14 +50,14 @@ def test_a_pressure_pasted_anywhere_goes_to_all_cylinders_in_their_firing_order(
     expect(curves.locator("polyline")).to_have_count(6)
     portal.page.get_by_role("button", name="Give it to all 6 cylinders").click()
     cylinders = _cylinders(portal)
-    centres = [one["pressure"]["dead_centre_deg"] for one in cylinders]
+    centres = [cylinder["pressure"]["dead_centre_deg"] for cylinder in cylinders]
     # analytic: cranks at 0, 120, 240, 240, 120 and 0 degrees stand outwards at 90, 330, 210, 210, 330 and 90
     assert centres == [90, 330, 570, 210, 690, 450]
-    for one in cylinders:
-        assert one["bore_m"] == "84 mm"
+    for single_cylinder in cylinders:
+        assert single_cylinder["bore_m"] == "84 mm"
         # the value that ends the cycle repeats its beginning
-        assert one["pressure"]["head"]["angle_deg"] == TRACE["angle_deg"][:-1]
-        assert one["pressure"]["head"]["pressure_Pa"] == pytest.approx(TRACE["pressure_Pa"][:-1], rel=1e-5)
+        assert single_cylinder["pressure"]["head"]["angle_deg"] == TRACE["angle_deg"][:-1]
+        assert single_cylinder["pressure"]["head"]["pressure_Pa"] == pytest.approx(TRACE["pressure_Pa"][:-1], rel=1e-5)
     portal.page.locator("#panel-picture-indicator").wait_for()
 
 
@@ -131,5 +131,5 @@ def test_offsets_are_typed_in_place_of_an_order(portal: Portal) -> None:
     _open(portal)
     _type(portal, text=COLUMNS, bore="84 mm", ambient="1,05 bar", offsets="90 690 210 570 330 450")
     portal.page.get_by_role("button", name="Give it to all 6 cylinders").click()
-    centres = [one["pressure"]["dead_centre_deg"] for one in _cylinders(portal)]
+    centres = [cylinder["pressure"]["dead_centre_deg"] for cylinder in _cylinders(portal)]
     assert centres == [90, 690, 210, 570, 330, 450]

@@ -63,7 +63,7 @@ def _typed(portal: Portal, webs: int) -> dict[str, int]:
     portal.unfold("/machine", "/machine/webs")
     last = portal.input(f"/machine/webs/{webs - 1}/position_m")
     last.wait_for()
-    costs = [one.evaluate(_TYPE, KEYS) for one in (portal.input("/machine/speed_rpm"), last)]
+    costs = [element.evaluate(_TYPE, KEYS) for element in (portal.input("/machine/speed_rpm"), last)]
     return {name: sum(cost[name] for cost in costs) for name in ("large", "steps")}
 
 

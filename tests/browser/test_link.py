@@ -51,8 +51,8 @@ def test_the_python_behind_a_panel_runs(portal: Portal) -> None:
     portal.open("2d12", ("torque",))
     code = _code(portal, "torque", "python") + "print(answer['torque']['mean_torque_Nm'])"
     ran = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, timeout=180, check=True)
-    shown = portal.panel("torque").locator("tbody th").inner_text()
-    assert f"{float(ran.stdout):,.0f}".replace(",", "\u202f") == shown
+    text = portal.panel("torque").locator("tbody th").inner_text()
+    assert f"{float(ran.stdout):,.0f}".replace(",", "\u202f") == text
 
 
 def test_the_curl_behind_a_panel_runs(portal: Portal, url: str) -> None:

@@ -39,7 +39,7 @@ def test_pasted_parts_are_matched(portal: Portal, url: str) -> None:
     match(panel)
     panel.locator(".proof").get_by_text("Certified: ").wait_for()
     fitted, body = portal.bodies("/v1/match")
-    assert [one["web"] for one in fitted["counterweights"]] == ["1a", "1b", "2a", "2b"]
+    assert [counterweight["web"] for counterweight in fitted["counterweights"]] == ["1a", "1b", "2a", "2b"]
     assert body["counterweights"] == []
     assert body["parts"] == [{"class": "crosshead", "names": ["K1", "K2"], "masses_kg": ["90700 g", "89600 g"]}]
     assert body["balance_nuts_kg"] == ["24500 g", "8000 g"]
@@ -54,8 +54,8 @@ def test_pasted_parts_are_matched(portal: Portal, url: str) -> None:
     assert parts[1][2] == "long (24.5 kg)"
     assert panel.get_by_text("Left over: short (8 kg).").is_visible()
     for row, (of, peak) in ((force, ("force", "peak_N")), (moment, ("moment", "peak_Nm"))):
-        found = [number(text) for text in row[1:3]]
-        assert found == pytest.approx([answer[when][of][peak] for when in ("before", "after")], rel=1e-4)
+        numbers = [number(text) for text in row[1:3]]
+        assert numbers == pytest.approx([answer[when][of][peak] for when in ("before", "after")], rel=1e-4)
     assert force[3].startswith("−")
     portal.screenshot("match-1280")
 

@@ -82,18 +82,18 @@ def test_every_panel_is_drawn(visit: Portal, example: str, url: str) -> None:
 def _shows_what_the_api_answers(portal: Portal, example: str, url: str) -> None:
     answer = ask(url, "/v1/optimize", ask(url, f"/v1/examples/{example}"))
     rows = cells(portal.panel("counterweights").locator("table"))
-    assert [row[0] for row in rows] == [one["web"] for one in answer["counterweights"]]
-    for row, one in zip(rows, answer["counterweights"], strict=True):
-        if one["mass_kg"] == 0:
+    assert [row[0] for row in rows] == [counterweight["web"] for counterweight in answer["counterweights"]]
+    for row, weight in zip(rows, answer["counterweights"], strict=True):
+        if weight["mass_kg"] == 0:
             assert row[1] == "none"
         else:
-            assert number(row[1]) == pytest.approx(one["mass_kg"], rel=1e-3, abs=1e-4)
-            assert float(row[2]) == pytest.approx(one["angle_deg"], abs=0.1)
+            assert number(row[1]) == pytest.approx(weight["mass_kg"], rel=1e-3, abs=1e-4)
+            assert float(row[2]) == pytest.approx(weight["angle_deg"], abs=0.1)
     bound = answer["certificate"]["mass_lower_bound_kg"]
     proof = portal.page.locator(".proof").inner_text()
     assert f"none weighs less than {bound:.4f}"[:-2] in proof
     # one counterweight each in both drawings
-    carrying = sum(one["mass_kg"] > 0 for one in answer["counterweights"])
+    carrying = sum(counterweight["mass_kg"] > 0 for counterweight in answer["counterweights"])
     for view in ("front", "side"):
         assert portal.page.locator(f"#answer .{view} .counterweight").count() == carrying
 
@@ -120,14 +120,14 @@ def test_what_is_asked_of_the_shaft_is_told_and_explained(portal: Portal, url: s
     _a_ceiling_that_cannot_be_met(portal)
 
 
-def _asked(portal: Portal, field: str, value: str) -> None:
+def _optimise_with(portal: Portal, field: str, value: str) -> None:
     portal.input(f"/objective/{field}").fill(value)
     portal.optimise()
 
 
 def _a_ceiling_that_cannot_be_met(portal: Portal) -> None:
     portal.open_panel("hodographs")
-    _asked(portal, "force_ceiling_N", "1 kN")
+    _optimise_with(portal, "force_ceiling_N", "1 kN")
     assert "No counterweights meet these ceilings" in portal.page.locator("#answer h2").inner_text()
     captions = portal.page.locator("#answer caption").all_inner_texts()
     assert captions[0] == "The closest compromise, which does not keep the ceilings"
@@ -137,10 +137,10 @@ def _a_ceiling_that_cannot_be_met(portal: Portal) -> None:
 
 
 def _bearing_loads_that_are_weighed(portal: Portal, url: str) -> None:
-    _asked(portal, "bearing_weight", "1")
+    _optimise_with(portal, "bearing_weight", "1")
     request = ask(url, "/v1/examples/2d12") | {"objective": {"bearing_weight": 1}}
     loads = ask(url, "/v1/optimize", request)["main_bearings"]["bearings"]
-    largest = [max(one[when]["peak_N"] for one in loads) for when in ("before", "after")]
+    largest = [max(value[when]["peak_N"] for value in loads) for when in ("before", "after")]
     (row,) = (row for row in cells(portal.page.locator("#answer")) if row[0] == "largest bearing load, N")
     assert [number(text) for text in row[1:3]] == pytest.approx(largest, rel=1e-4)
     assert "sum of peak force, peak moment and the largest bearing load" in portal.page.locator(".proof").inner_text()
@@ -156,16 +156,18 @@ def test_what_stands_beside_the_answer(portal: Portal, url: str) -> None:
     second = answer["residual"]["orders"]["after"][1]
     assert number(rows[1][2]) == pytest.approx(second["force"]["peak_N"], rel=1e-4)
     rates = cells(portal.panel("cranks").locator("table"))
-    assert [float(row[1]) for row in rates] == pytest.approx([one["rate"] for one in answer["balance_rate"]], rel=5e-3)
+    assert [float(row[1]) for row in rates] == pytest.approx(
+        [entry["rate"] for entry in answer["balance_rate"]], rel=5e-3
+    )
     words = portal.page.locator("#answer").inner_text()
     assert "one per cent of their mass" in words
     assert "Goals in their order" not in words
 
 
 def _a_ceiling_of_bearings(portal: Portal) -> None:
-    _asked(portal, "bearing_ceiling_N", "105 kN")
+    _optimise_with(portal, "bearing_ceiling_N", "105 kN")
     assert "ceiling of the bearing loads is reached" in portal.panel("counterweights").inner_text()
-    _asked(portal, "bearing_ceiling_N", "20 kN")
+    _optimise_with(portal, "bearing_ceiling_N", "20 kN")
     words = portal.page.locator(".proof").inner_text()
     assert "The ceiling of the bearing loads cannot be met." in words
     assert "the ceiling of the bearing loads asks for 20\u202f000 N" in words
@@ -195,7 +197,9 @@ def _shows(panel: Any, point: Any, place: int, count: int) -> None:
     panel.get_by_role("heading", name=f"Point {place} of {count}").wait_for()
     rows = cells(panel.locator(".picked table").nth(1))
     masses = [number(row[1]) for row in rows]
-    assert masses == pytest.approx([one["mass_kg"] for one in point["counterweights"]], rel=1e-3, abs=1e-3)
+    assert masses == pytest.approx(
+        [counterweight["mass_kg"] for counterweight in point["counterweights"]], rel=1e-3, abs=1e-3
+    )
 
 
 def _of_a_clearance(request: Request) -> bool:
@@ -227,9 +231,9 @@ def test_the_pins_turn(portal: Portal, url: str) -> None:
     # each pin that is typed is a question, and the last may come after those before it are answered
     with portal.page.expect_request(_of_a_clearance):
         panel.get_by_label("clearance, µm, pin 2").press("Tab")
-    asked = portal.bodies("/v1/scroll/pin-loads")[-1]
-    assert [one.get("clearance_m", 0) for one in asked["pins"]] == pytest.approx([0, 1e-5, 0])
-    peaks = [one["peak_N"] for one in ask(url, "/v1/scroll/pin-loads", asked)["pins"]]
+    body = portal.bodies("/v1/scroll/pin-loads")[-1]
+    assert [body_pin.get("clearance_m", 0) for body_pin in body["pins"]] == pytest.approx([0, 1e-5, 0])
+    peaks = [ask_pin["peak_N"] for ask_pin in ask(url, "/v1/scroll/pin-loads", body)["pins"]]
     loads = panel.locator("table", has_text="peak load, N")
     # any of them may be what it was before
     for row, peak in enumerate(peaks):
@@ -259,7 +263,7 @@ def test_any_two_responses_are_traded(portal: Portal, url: str) -> None:
     portal.open("v60", ("pareto",))
     panel = portal.panel("pareto")
     # without bearings there is nothing to trade of them
-    names = [one.get_attribute("value") for one in panel.locator("#trade-x option").all()]
+    names = [element.get_attribute("value") for element in panel.locator("#trade-x option").all()]
     assert {"force", "moment", "mass"} <= set(names)
     assert not {"bearings", "bending"} & set(names)
     panel.locator("#trade-y").select_option("mass")
@@ -287,13 +291,13 @@ def test_numbers_of_counterweights_are_traded_where_there_is_a_catalogue(portal:
     body = portal.bodies("/v1/pareto")[-1]
     assert body["counts"] == {"of": "weights", "least": "objective"}
     # without a ceiling the least mass is none
-    assert [one.get_attribute("value") for one in panel.locator("#count-least option").all()] == ["objective"]
+    assert [element.get_attribute("value") for element in panel.locator("#count-least option").all()] == ["objective"]
     points = ask(url, "/v1/pareto", body)["counts"][0]["points"]
     for key, place in (("Home", 0), ("End", len(points) - 1)):
         panel.locator("#pareto-point").press(key)
         panel.get_by_text(f"Point {place + 1} of {len(points)}").wait_for()
-        shown = [number(text) for text in cells(panel.locator(".picked table").first)[0][:2]]
-        assert shown == pytest.approx([points[place]["at_most"], points[place]["value"]], rel=1e-4)
+        numbers = [number(text) for text in cells(panel.locator(".picked table").first)[0][:2]]
+        assert numbers == pytest.approx([points[place]["at_most"], points[place]["value"]], rel=1e-4)
     portal.screenshot("counts")
     # part numbers in their place; and a link keeps them
     panel.locator("#count-of").select_option("part_numbers")
@@ -313,8 +317,8 @@ def test_the_crank_turns_with_its_force_and_moment(portal: Portal, url: str) -> 
     after = ask(url, "/v1/optimize", request)["hodograph"]["after"]
     size = (after["force_x_N"][45] ** 2 + after["force_y_N"][45] ** 2) ** 0.5
     words = panel.locator("figcaption").nth(1).inner_text()
-    said = words.rsplit("after ", 1)[1].removesuffix(" N").replace(",", "")
-    assert number(said) == pytest.approx(size, rel=1e-3, abs=1e-3)
+    variant = words.rsplit("after ", 1)[1].removesuffix(" N").replace(",", "")
+    assert number(variant) == pytest.approx(size, rel=1e-3, abs=1e-3)
     panel.get_by_role("button", name="Turn").click()
     stop = panel.get_by_role("button", name="Stop")
     assert stop.get_attribute("aria-pressed") == "true"

@@ -79,13 +79,13 @@ def test_what_is_wrong_is_said_above_the_button_and_beside_it(portal: Portal) ->
     portal.input("/machine/throws/0/crank_radius_m").fill("3 kg")
     portal.page.click("#optimise")
     expect(portal.page.locator("#progress")).to_have_text("Not computed: 2 fields are wrong.")
-    said = portal.page.locator("#trouble")
-    assert said.is_visible()
-    assert said.inner_text().startswith("speed: must be")
+    element = portal.page.locator("#trouble")
+    assert element.is_visible()
+    assert element.inner_text().startswith("speed: must be")
     portal.input("/machine/speed_rpm").fill("500")
     portal.input("/machine/throws/0/crank_radius_m").fill("140 mm")
     portal.optimise()
-    expect(said).to_have_text("")
+    expect(element).to_have_text("")
     expect(portal.page.locator("#progress")).to_contain_text("Answered")
 
 

@@ -16,7 +16,9 @@ def _request(portal: Portal) -> Any:
 
 
 def _bearings(request: Any) -> list[tuple[str, str, str]]:
-    return [(one["name"], one["position_m"], one["diameter_m"]) for one in request["machine"]["bearings"]]
+    return [
+        (bearing["name"], bearing["position_m"], bearing["diameter_m"]) for bearing in request["machine"]["bearings"]
+    ]
 
 
 def test_bearings_pasted_beside_the_form_leave_the_throws(portal: Portal) -> None:
@@ -33,11 +35,11 @@ def test_bearings_pasted_into_throws_are_refused_with_their_place(portal: Portal
     portal.open("v60")
     before = portal.bodies("/v1/optimize")[-1]["machine"]
     portal.paste("#form .grid-throw .wide", BEARINGS)
-    said = portal.page.locator("#form .grid-throw .said")
-    expect(said).to_contain_text("This is a table of main bearings: nothing was pasted here.")
+    element = portal.page.locator("#form .grid-throw .said")
+    expect(element).to_contain_text("This is a table of main bearings: nothing was pasted here.")
     assert _request(portal)["machine"] == before
     portal.paste("#form .grid-throw .wide", BEARINGS)
-    said.get_by_role("button", name="Paste it into the main bearings").click()
+    element.get_by_role("button", name="Paste it into the main bearings").click()
     expect(portal.page.locator("#form .grid-bearing tbody tr")).to_have_count(3)
     request = _request(portal)
     assert _bearings(request) == READ
@@ -51,7 +53,7 @@ def test_the_head_of_a_table_gives_names(portal: Portal) -> None:
         text = f"{kind.title()}\tposition\ndrive end\t0,45\nfree end\t-0,45\n"
         portal.paste(f"#form .grid-{kind} .wide", text)
         items = _request(portal)["machine"][table][:2]
-        assert [(one["name"], one["position_m"]) for one in items] == [("drive end", 0.45), ("free end", -0.45)]
+        assert [(entry["name"], entry["position_m"]) for entry in items] == [("drive end", 0.45), ("free end", -0.45)]
         assert portal.page.locator(f"#form .grid-{kind} .said").inner_text() == ""
 
 
@@ -73,7 +75,7 @@ def test_names_and_planes_alone_are_bearings_unless_a_title_says_otherwise(porta
         portal.paste("body", f"{title}Name\tPosition (mm)\nD\t-410\nE\t410\n")
         expect(portal.page.locator("#progress")).to_have_text(f"Pasted: 2 {place}. Press Optimise.")
         machine = _request(portal)["machine"]
-        assert [one["name"] for one in machine[place]][:2] == ["D", "E"]
+        assert [entry["name"] for entry in machine[place]][:2] == ["D", "E"]
         # all else is as it was
         assert {**machine, place: before[place]} == before
         portal.page.click("#undo")
@@ -89,8 +91,10 @@ def test_two_machines_and_ten_thousand_lines_are_refused(portal: Portal) -> None
     )
     portal.page.click("#undo")
     portal.paste("#form .grid-web .wide", "Web\tposition\n" + "x\t0\n" * 10_000)
-    said = portal.page.locator("#form .grid-web .said")
-    expect(said).to_contain_text("10000 lines are more than the 500 webs that a machine may have: nothing was pasted.")
+    element = portal.page.locator("#form .grid-web .said")
+    expect(element).to_contain_text(
+        "10000 lines are more than the 500 webs that a machine may have: nothing was pasted."
+    )
     assert _request(portal)["machine"] == before
 
 
@@ -119,10 +123,10 @@ def test_numbers_of_a_table_are_read_by_the_mark_that_it_has(portal: Portal) -> 
 def test_a_comma_that_may_group_is_asked_about(portal: Portal) -> None:
     portal.open("2d12")
     portal.paste("body", "Web\tmax mass\nA\t1,125\nB\t1,250\n")
-    said = portal.page.locator("#form .grid-web .question")
-    expect(said).to_contain_text("max mass: 1,125 is read as 1.125.")
+    element = portal.page.locator("#form .grid-web .question")
+    expect(element).to_contain_text("max mass: 1,125 is read as 1.125.")
     assert [web["max_mass_kg"] for web in _request(portal)["machine"]["webs"][:2]] == [1.125, 1.25]
-    said.get_by_role("button", name="1125 meant").click()
+    element.get_by_role("button", name="1125 meant").click()
     assert [web["max_mass_kg"] for web in _request(portal)["machine"]["webs"][:2]] == [1125, 1250]
     # what the page prints it reads: thousands stand apart
     portal.input("/machine/speed_rpm").fill("1\u202f125,5")
@@ -145,9 +149,9 @@ def test_a_pressure_pasted_into_a_table_is_refused_with_its_place(portal: Portal
     portal.paste(
         "#form .grid-web .wide", "angle\tpressure\n" + "".join(f"{20 * k}\t{1.5 + k % 3}\n" for k in range(18))
     )
-    said = portal.page.locator("#form .grid-web .said")
-    expect(said).to_contain_text("This is a pressure over the angle: nothing was pasted here.")
-    said.get_by_role("button", name="Paste it into the indicated pressure").click()
+    element = portal.page.locator("#form .grid-web .said")
+    expect(element).to_contain_text("This is a pressure over the angle: nothing was pasted here.")
+    element.get_by_role("button", name="Paste it into the indicated pressure").click()
     expect(portal.page.locator("#form .gas .said")).to_contain_text("18 lines: one revolution, 1.5 to 3.5 bar")
     assert _request(portal)["machine"] == before
 

@@ -37,12 +37,12 @@ def test_the_head_and_the_versions_are_given_on_the_page(portal: Portal) -> None
     content = Path(download.value.path()).read_text()
     for words in ("M. Weber", "For approval.", "slow", *office.values(), "counterweights as cast"):
         assert words in content
-    (asked,) = portal.bodies("/v1/report")
-    assert asked["document"]["revision"] == "B"
-    assert [one["revision"] for one in asked["document"]["revisions"]] == ["A", "B"]
+    (body,) = portal.bodies("/v1/report")
+    assert body["document"]["revision"] == "B"
+    assert [revision["revision"] for revision in body["document"]["revisions"]] == ["A", "B"]
     # the day where the reader is
-    assert asked["document"]["date"] == portal.page.evaluate("new Date().toLocaleDateString('sv-SE')")
-    (version,) = asked["versions"]
+    assert body["document"]["date"] == portal.page.evaluate("new Date().toLocaleDateString('sv-SE')")
+    (version,) = body["versions"]
     assert (version["name"], version["machine"]["speed_rpm"] != 900) == ("slow", True)
     # of the tab: there after a reload, and said beside the buttons
     portal.page.reload()

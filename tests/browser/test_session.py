@@ -80,10 +80,10 @@ def test_leaving_with_unanswered_edits_is_asked_about(visit: Portal) -> None:
     portal = visit
     portal.open("two-rows-180")
     portal.input(SPEED).fill("777")
-    with portal.page.expect_event("dialog") as asked:
+    with portal.page.expect_event("dialog") as info:
         portal.page.once("dialog", lambda dialog: dialog.dismiss())
         portal.page.close(run_before_unload=True)
-    assert asked.value.type == "beforeunload"
+    assert info.value.type == "beforeunload"
     portal.optimise()
     assert portal.bodies("/v1/optimize")[-1]["machine"]["speed_rpm"] == 777
 
@@ -96,12 +96,12 @@ def test_unfinished_work_is_offered_in_another_tab(visit: Portal) -> None:
     portal.page.wait_for_url("**#r=*")
     portal.page.reload()
     expect(portal.input("/machine/name")).to_have_value("unfinished")
-    other = portal.page.context.new_page()
+    page = portal.page.context.new_page()
     try:
-        other.goto(f"{portal.url}/")
-        other.get_by_text("unfinished").wait_for()
-        other.get_by_role("button", name="Go on with it").click()
-        expect(other.locator("#form .field[data-pointer='/machine/name'] input")).to_have_value("unfinished")
-        expect(other.locator("#recover")).to_be_hidden()
+        page.goto(f"{portal.url}/")
+        page.get_by_text("unfinished").wait_for()
+        page.get_by_role("button", name="Go on with it").click()
+        expect(page.locator("#form .field[data-pointer='/machine/name'] input")).to_have_value("unfinished")
+        expect(page.locator("#recover")).to_be_hidden()
     finally:
-        other.close()
+        page.close()

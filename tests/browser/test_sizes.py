@@ -37,9 +37,9 @@ def test_one_gap_is_told_and_nothing_is_proved_beside_it(portal: Portal, url: st
     assert "proved" not in words
     assert "Found" not in words
     # independent: the gap of the certificate, in per cent
-    said = words.partition("gap is ")[2].partition(" %")[0]
+    part = words.partition("gap is ")[2].partition(" %")[0]
     gap = 100 * answer["certificate"]["relative_gap"]
-    assert said == "0" if gap <= 0 else float(said.removeprefix("less than ")) >= 0.99 * gap
+    assert part == "0" if gap <= 0 else float(part.removeprefix("less than ")) >= 0.99 * gap
     # what counterweights cost is no part of the objective: it is told of force and moment alone
     goals = [{"goal": "external", "allowance": 0.01}, {"goal": "pieces"}, {"goal": "mass"}]
     request = {"machine": portal.bodies("/v1/optimize")[-1]["machine"], "objective": {"priorities": goals}}

@@ -41,23 +41,23 @@ def test_four_throws_are_typed(portal: Portal) -> None:
     request = portal.bodies("/v1/optimize")[-1]
     machine = request["machine"]
     assert machine["speed_rpm"] == 750
-    assert [each["crank_angle_deg"] for each in machine["throws"]] == [0, 90, 270, 180]
-    assert [each["position_m"] for each in machine["throws"]] == pytest.approx([-0.45, -0.15, 0.15, 0.45])
-    assert [each["rotating_mass_kg"] for each in machine["throws"]] == [9.5, 9.7, 9.5, 9.5]
+    assert [throw["crank_angle_deg"] for throw in machine["throws"]] == [0, 90, 270, 180]
+    assert [throw["position_m"] for throw in machine["throws"]] == pytest.approx([-0.45, -0.15, 0.15, 0.45])
+    assert [throw["rotating_mass_kg"] for throw in machine["throws"]] == [9.5, 9.7, 9.5, 9.5]
     assert [web["max_mass_kg"] for web in machine["webs"]] == [22, *[25] * 7]
     # nothing of the example that was there
     assert set(machine) == {"kind", "speed_rpm", "throws", "webs"}
-    assert all(set(each["rows"][0]) == {"axis_deg", "reciprocating_mass_kg"} for each in machine["throws"])
+    assert all(set(throw["rows"][0]) == {"axis_deg", "reciprocating_mass_kg"} for throw in machine["throws"])
 
 
 def _four(portal: Portal, before: int) -> None:
     """The four-throw machine is answered, and holds nothing of what was there."""
     _computed(portal, before)
     machine = portal.bodies("/v1/optimize")[-1]["machine"]
-    assert [each["rows"][0]["reciprocating_mass_kg"] for each in machine["throws"]] == [31, 30, 30, 31]
-    assert [each["rows"][0]["axis_deg"] for each in machine["throws"]] == [90] * 4
-    assert [each["position_m"] for each in machine["throws"]] == ["-450 mm", "-150 mm", "150 mm", "450 mm"]
-    assert [each["crank_angle_deg"] for each in machine["throws"]] == [0, 90, 270, 180]
+    assert [throw["rows"][0]["reciprocating_mass_kg"] for throw in machine["throws"]] == [31, 30, 30, 31]
+    assert [throw["rows"][0]["axis_deg"] for throw in machine["throws"]] == [90] * 4
+    assert [throw["position_m"] for throw in machine["throws"]] == ["-450 mm", "-150 mm", "150 mm", "450 mm"]
+    assert [throw["crank_angle_deg"] for throw in machine["throws"]] == [0, 90, 270, 180]
     assert [web["position_m"] for web in machine["webs"]][:3] == ["-525 mm", "-375 mm", "-225 mm"]
     assert machine["speed_rpm"] in (750, "750 rpm")
     assert set(machine) == {"kind", "speed_rpm", "throws", "webs"}
@@ -108,8 +108,8 @@ def test_a_whole_sheet_is_pasted(portal: Portal) -> None:
     throws = FOUR.replace("angle", "crank angle")
     sheet = f"Speed (rpm)\t750\t\t\nColour\t7\n\n{throws}\n\t\t\nRows\n{ROWS}\n{WEBS}"
     hand.drop(".starter", sheet)
-    said = "Pasted: 4 throws, 4 rows, 8 webs, Speed (rpm). Not understood: Colour. Press Optimise."
-    portal.page.locator("#progress").get_by_text(said).wait_for()
+    text = "Pasted: 4 throws, 4 rows, 8 webs, Speed (rpm). Not understood: Colour. Press Optimise."
+    portal.page.locator("#progress").get_by_text(text).wait_for()
     hand.click("#optimise")
     assert hand.count <= 5
     _four(portal, before)
@@ -127,8 +127,8 @@ def test_examples_without_gas_data_come_first(visit: Portal) -> None:
     portal.page.goto(f"{portal.url}/")
     groups = portal.page.locator("#example optgroup")
     groups.nth(1).wait_for(state="attached")
-    assert [one.get_attribute("label") for one in groups.all()] == ["Masses alone", "With gas data"]
-    gas = [one.get_attribute("value") for one in groups.nth(1).locator("option").all()]
+    assert [element.get_attribute("label") for element in groups.all()] == ["Masses alone", "With gas data"]
+    gas = [element.get_attribute("value") for element in groups.nth(1).locator("option").all()]
     assert gas == ["2d12", "inline-four-engine"]
     assert not {"two-rows-180"} & set(gas)
     portal.page.locator(".beginning a").first.click()
@@ -173,8 +173,8 @@ def test_arrangements(portal: Portal) -> None:
         portal.page.click(".starter button[value=begin]")
         _computed(portal, before)
         machine = portal.bodies("/v1/optimize")[-1]["machine"]
-        assert [[row["axis_deg"] for row in each["rows"]] for each in machine["throws"]] == axes
-        assert [each["crank_angle_deg"] for each in machine["throws"]] == cranks
+        assert [[row["axis_deg"] for row in throw["rows"]] for throw in machine["throws"]] == axes
+        assert [throw["crank_angle_deg"] for throw in machine["throws"]] == cranks
         assert [web["name"] for web in machine["webs"]] == ["front", "rear"]
         # analytic: a boxer of four leaves nothing to balance
         fitted = portal.page.locator("#drawings .front .counterweight:not(.unknown)").count()
@@ -204,10 +204,10 @@ def test_a_v_engine_with_split_pins(portal: Portal) -> None:
     split = {"angle": "60", "split": "60", "offset": "20 mm", "radius": "60 mm"}
     machine = _begin(portal, "v", SIX | split)["machine"]
     # analytic: with pins as far apart as the rows of a V six both pistons of a throw move 120 degrees apart
-    assert [each["crank_angle_deg"] for each in machine["throws"]] == [0, 300, 120, 60, 240, 180]
-    assert [each["rows"][0]["axis_deg"] for each in machine["throws"]] == [60, 120] * 3
-    assert [each["position_m"] for each in machine["throws"]][:2] == pytest.approx([-0.11, -0.09])
-    assert {each["rotating_mass_kg"] for each in machine["throws"]} == {0.6}
+    assert [throw["crank_angle_deg"] for throw in machine["throws"]] == [0, 300, 120, 60, 240, 180]
+    assert [throw["rows"][0]["axis_deg"] for throw in machine["throws"]] == [60, 120] * 3
+    assert [throw["position_m"] for throw in machine["throws"]][:2] == pytest.approx([-0.11, -0.09])
+    assert {throw["rotating_mass_kg"] for throw in machine["throws"]} == {0.6}
     assert {web["max_mass_kg"] for web in machine["webs"]} == {None}
 
 
@@ -216,7 +216,7 @@ def test_an_engine_with_balance_shafts_and_a_mass_for_each_row(portal: Portal) -
     request = _begin(portal, "vertical", SIX | {"throws": "4", "reciprocating": "0,5; 0,5; 0,51; 0,5"} | shafts)
     assert request["objective"] == {"orders": "all"}
     assert [shaft["speed_ratio"] for shaft in request["machine"]["balance_shafts"]] == [2, -2]
-    masses = [each["rows"][0]["reciprocating_mass_kg"] for each in request["machine"]["throws"]]
+    masses = [throw["rows"][0]["reciprocating_mass_kg"] for throw in request["machine"]["throws"]]
     assert masses == [0.5, 0.5, 0.51, 0.5]
 
 

@@ -60,14 +60,14 @@ def test_bearing_loads_over_the_speed_are_one_click(portal: Portal, url: str) ->
     portal.page.wait_for_selector("#panel-sweep[data-swept]")
     bearings = ask(url, "/v1/examples/inline-four-engine")["machine"]["bearings"]
     expect(panel.locator(".scatterlayer .trace")).to_have_count(len(bearings))
-    asked = portal.bodies("/v1/sweeps")[-1]
-    assert asked["task"] == "analyze"
-    axis = asked["axes"][0]
+    body = portal.bodies("/v1/sweeps")[-1]
+    assert body["task"] == "analyze"
+    axis = body["axes"][0]
     # independent: the fastest speed by itself
-    base = asked["base"]
+    base = body["base"]
     base["machine"]["speed_rpm"] = axis["stop"]
     loads = ask(url, "/v1/analyze", base)["main_bearings"]["bearings"]
-    largest = max(one["after"]["peak_N"] for one in loads)
+    largest = max(entry["after"]["peak_N"] for entry in loads)
     words = panel.locator("[role=img][aria-label*='Largest load']").get_attribute("aria-label") or ""
     assert number(words.partition("up to ")[2].removesuffix(" N.")) == pytest.approx(largest, rel=1e-4)
 
@@ -80,7 +80,7 @@ def test_a_wrong_range_is_refused_at_its_field(portal: Portal) -> None:
     portal.page.get_by_role("button", name="Start the sweep").click()
     portal.page.locator("#panel-sweep [aria-invalid='true']").first.wait_for()
     wrong = portal.page.locator("#panel-sweep .wrong")
-    assert {one.get_attribute("data-pointer") for one in wrong.all()} <= {"/axes/0/start", "/axes/1/count"}
+    assert {element.get_attribute("data-pointer") for element in wrong.all()} <= {"/axes/0/start", "/axes/1/count"}
 
 
 def test_another_field_and_an_end_before_its_time(portal: Portal) -> None:

@@ -64,20 +64,20 @@ def test_metres_that_are_none_are_asked_about(portal: Portal) -> None:
     assert "crank radius: 100 m?" in question.inner_text()
     question.get_by_role("button", name="100 mm meant").click()
     assert question.count() == 0
-    assert [each["crank_radius_m"] for each in _machine(portal)["throws"]] == ["100 mm", "100 mm"]
+    assert [crank["crank_radius_m"] for crank in _machine(portal)["throws"]] == ["100 mm", "100 mm"]
 
 
 def test_a_table_is_pasted(portal: Portal) -> None:
     portal.open("two-rows-180")
     _paste(portal, "throw", FOUR)
-    said = portal.page.locator("#form .grid-throw .said")
-    said.get_by_role("button", name="Yes, crank angle").click()
+    element = portal.page.locator("#form .grid-throw .said")
+    element.get_by_role("button", name="Yes, crank angle").click()
     throws = _machine(portal)["throws"]
-    assert [each["position_m"] for each in throws] == ["-450 mm", "-150 mm", "150 mm", "450 mm"]
-    assert [each["crank_angle_deg"] for each in throws] == [0, 90, 270, 180]
-    assert [each["rotating_mass_kg"] for each in throws] == [9.5] * 4
+    assert [throw["position_m"] for throw in throws] == ["-450 mm", "-150 mm", "150 mm", "450 mm"]
+    assert [throw["crank_angle_deg"] for throw in throws] == [0, 90, 270, 180]
+    assert [throw["rotating_mass_kg"] for throw in throws] == [9.5] * 4
     # new throws are like the last one, with its row
-    assert len({each["name"] for each in throws}) == 4
+    assert len({throw["name"] for throw in throws}) == 4
 
 
 def test_cells_are_pasted_where_the_caret_is(portal: Portal) -> None:
@@ -148,11 +148,11 @@ def test_headings_and_drawing_follow_what_is_typed(portal: Portal) -> None:
     portal.input(f"{THROWS}/1/name").fill("drive end")
     heading = portal.page.locator(f"#form details[data-pointer='{THROWS}/1'] > summary")
     expect(heading).to_have_text("throw drive end", ignore_case=True)
-    asked = len(portal.bodies("/v1/optimize"))
+    count = len(portal.bodies("/v1/optimize"))
     portal.page.locator("#drawings .side").get_by_text("throw drive end", exact=True).wait_for()
     portal.input(f"{THROWS}/1/crank_angle_deg").fill("90")
     portal.page.locator("#drawings .front title", has_text="throw drive end at 90°").wait_for(state="attached")
-    assert len(portal.bodies("/v1/optimize")) == asked
+    assert len(portal.bodies("/v1/optimize")) == count
 
 
 def test_the_keyboard_goes_through_a_table(portal: Portal) -> None:
@@ -168,7 +168,7 @@ def test_the_keyboard_goes_through_a_table(portal: Portal) -> None:
     keyboard.type("13")
     keyboard.press("ArrowUp")
     keyboard.type("14")
-    assert [each["rotating_mass_kg"] for each in _machine(portal)["throws"]] == [11, 14, 13]
+    assert [throw["rotating_mass_kg"] for throw in _machine(portal)["throws"]] == [11, 14, 13]
 
 
 def test_all_of_a_column_is_edited_at_once_and_filled_down(portal: Portal) -> None:

@@ -40,8 +40,8 @@ def test_three_responses_are_traded_by_name(portal: Portal, url: str) -> None:
     points = ask(url, "/v1/pareto", body)["trades"][0]["points"]
     panel.locator("#pareto-point").press("Home")
     panel.get_by_role("heading", name=f"Point 1 of {len(points)}").wait_for()
-    shown = [number(text) for text in cells(panel.locator(".picked table").first)[0][:3]]
-    assert shown == pytest.approx(points[0]["values"], rel=1e-4)
+    numbers = [number(text) for text in cells(panel.locator(".picked table").first)[0][:3]]
+    assert numbers == pytest.approx(points[0]["values"], rel=1e-4)
     portal.page.wait_for_url("**trade=force,moment,bearings*")
 
 
@@ -75,8 +75,8 @@ def test_versions_show_every_response_that_was_weighed(portal: Portal, url: str)
     panel.get_by_label("compare light").check()
     rows = {row[0]: row[1:] for row in cells(panel.locator(".compared table").first)}
     for title, largest in (
-        ("peak bearing load, N", lambda one: max(each["after"]["peak_N"] for each in one["bearings"])),
-        ("peak bending moment, N m", lambda one: max(one["bending"]["after_Nm"])),
+        ("peak bearing load, N", lambda subject: max(bearing["after"]["peak_N"] for bearing in subject["bearings"])),
+        ("peak bending moment, N m", lambda subject: max(subject["bending"]["after_Nm"])),
     ):
         values = [largest(answer["main_bearings"]) for answer in answers]
         assert [number(text.partition(" (")[0]) for text in rows[title]] == pytest.approx(values, rel=1e-4)
@@ -130,9 +130,9 @@ def test_where_something_may_be_off_the_worst_case_is_traded(portal: Portal, url
     points = ask(url, "/v1/pareto", portal.bodies("/v1/pareto")[-1])["fronts"][0]["points"]
     panel.locator("#pareto-point").press("Home")
     panel.get_by_role("heading", name=f"Point 1 of {len(points)}").wait_for()
-    shown = [number(text) for text in cells(panel.locator(".picked table").first)[0][:2]]
+    numbers = [number(text) for text in cells(panel.locator(".picked table").first)[0][:2]]
     worst = points[0]["worst_case"]
-    assert shown == pytest.approx([worst["force_peak_N"], worst["moment_peak_Nm"]], rel=1e-4)
+    assert numbers == pytest.approx([worst["force_peak_N"], worst["moment_peak_Nm"]], rel=1e-4)
     assert worst["moment_peak_Nm"] > 1.001 * points[0]["moment_peak_Nm"]
 
 
@@ -154,11 +154,11 @@ def test_of_several_scenarios_the_worst_is_traded(portal: Portal, url: str) -> N
     points = ask(url, "/v1/pareto", body)["fronts"][0]["points"]
     panel.locator("#pareto-point").press("Home")
     panel.get_by_role("heading", name=f"Point 1 of {len(points)}").wait_for()
-    shown = [number(text) for text in cells(panel.locator(".picked table").first)[0][:2]]
+    numbers = [number(text) for text in cells(panel.locator(".picked table").first)[0][:2]]
     # analytic: forces are as the squares of the speeds
-    of_given = [points[0]["force_peak_N"], points[0]["moment_peak_Nm"]]
+    force_peaks_N = [points[0]["force_peak_N"], points[0]["moment_peak_Nm"]]
     times = (700.0 / body["machine"]["speed_rpm"]) ** 2
-    assert shown == pytest.approx([times * peak for peak in of_given], rel=1e-4, abs=1e-4)
+    assert numbers == pytest.approx([times * peak for peak in force_peaks_N], rel=1e-4, abs=1e-4)
 
 
 def test_points_show_what_balance_shafts_carry(portal: Portal, url: str) -> None:
@@ -193,6 +193,6 @@ def test_named_responses_are_those_of_the_worst_case(portal: Portal, url: str) -
     points = ask(url, "/v1/pareto", body)["trades"][0]["points"]
     panel.locator("#pareto-point").press("Home")
     panel.get_by_role("heading", name=f"Point 1 of {len(points)}").wait_for()
-    shown = [number(text) for text in cells(panel.locator(".picked table").first)[0][:2]]
-    assert shown == pytest.approx(points[0]["values"], rel=1e-4)
+    numbers = [number(text) for text in cells(panel.locator(".picked table").first)[0][:2]]
+    assert numbers == pytest.approx(points[0]["values"], rel=1e-4)
     assert points[0]["values"][0] > 1.0001 * points[0]["nominal_values"][0]

@@ -92,10 +92,10 @@ def test_a_compressor_becomes_a_filed_report_with_castings(portal: Portal, withi
     assert len(PdfReader(ARTEFACTS / "trial-a.pdf").pages) <= 9
     assert hand.fields <= 25
     assert hand.clicks <= 12
-    asked = portal.bodies("/v1/report")[-1]
-    assert {"foundation_loads", "residual"} <= set(asked["outputs"])
-    assert asked["document"]["approver"] == "L. B."
-    masses_kg = {one["mass_kg"] for one in answer["counterweights"]}
+    body = portal.bodies("/v1/report")[-1]
+    assert {"foundation_loads", "residual"} <= set(body["outputs"])
+    assert body["document"]["approver"] == "L. B."
+    masses_kg = {counterweight["mass_kg"] for counterweight in answer["counterweights"]}
     # analytic: castings of at most two of the four sizes
     assert len(masses_kg - {0}) <= 2
     assert masses_kg <= {0, 10, 20, 30, 40}
@@ -129,7 +129,7 @@ def test_a_v_six_gets_bearings_and_gas(portal: Portal, within: str | None) -> No
     assert hand.count <= 40
     request = portal.bodies("/v1/optimize")[-1]
     cylinders = [row["cylinder"] for throw in request["machine"]["throws"] for row in throw["rows"]]
-    centres = [one["pressure"]["dead_centre_deg"] for one in cylinders]
+    centres = [cylinder["pressure"]["dead_centre_deg"] for cylinder in cylinders]
     # analytic: an even V six fires every 120 degrees
     assert sorted(centre % 720 for centre in centres) == pytest.approx([60 + 120 * k for k in range(6)])
     assert len(request["machine"]["bearings"]) == 4

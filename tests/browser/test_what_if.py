@@ -17,8 +17,8 @@ def test_what_remains_of_weights_as_fitted(portal: Portal, url: str) -> None:
     expect(panel.locator(".residual")).to_have_attribute("data-of", "[[60,175],[60,180],[50.5,0],[60,0]]")
     request = ask(url, "/v1/examples/2d12")
     weights = [("1a", 60, 175), ("1b", 60, 180), ("2a", 50.5, 0), ("2b", 60, 0)]
-    given = [{"web": web, "mass_kg": mass, "angle_deg": angle} for web, mass, angle in weights]
-    body = {"machine": request["machine"], "counterweights": given, "outputs": ["residual"]}
+    counterweights = [{"web": web, "mass_kg": mass, "angle_deg": angle} for web, mass, angle in weights]
+    body = {"machine": request["machine"], "counterweights": counterweights, "outputs": ["residual"]}
     after = ask(url, "/v1/analyze", body)["residual"]["after"]
     rows = cells(panel.locator(".residual"))
     assert number(rows[0][3]) == pytest.approx(after["force"]["peak_N"], rel=1e-4)
@@ -34,8 +34,10 @@ def test_weights_of_balance_shafts_are_changed_as_well(portal: Portal, url: str)
     expect(panel.locator(".residual")).to_have_attribute("data-of", re.compile(r"\[0\.5,270\]\]$"))
     request = ask(url, "/v1/examples/single-balance-shaft")
     masses = {"a": 0.72, "b": 0.72, "balancer": 0.5}
-    given = [{"web": web, "mass_kg": mass, "angle_deg": 270} for web, mass in masses.items()]
-    after = ask(url, "/v1/analyze", {"machine": request["machine"], "counterweights": given})["residual"]["after"]
+    counterweights = [{"web": web, "mass_kg": mass, "angle_deg": 270} for web, mass in masses.items()]
+    after = ask(url, "/v1/analyze", {"machine": request["machine"], "counterweights": counterweights})["residual"][
+        "after"
+    ]
     rows = cells(panel.locator(".residual"))
     assert number(rows[0][3]) == pytest.approx(after["force"]["peak_N"], rel=1e-3)
     # analytic: the sum of the masses, on whichever shaft
@@ -88,14 +90,14 @@ def test_versions_stand_side_by_side(portal: Portal) -> None:
         panel.locator("#version-name").fill(name)
         panel.get_by_role("button", name="Keep this version").click()
     panel.get_by_label("compare slow").check()
-    results, asked = panel.locator(".compared table").all()
+    results, element = panel.locator(".compared table").all()
     rows = {row[0]: row[1:] for row in cells(results)}
     # the smaller one is marked, and the other says by how much it is above it
     assert [text.partition(" (")[2] for text in rows["peak force, N"]] == ["best)", "+120 %)"]
     slow, fast = (number(text.partition(" (")[0]) for text in rows["peak force, N"])
     # analytic: forces grow with the square of the speed
     assert fast == pytest.approx(2.25 * slow, rel=1e-3)
-    assert cells(asked) == [["speed", "600", "900"]]
+    assert cells(element) == [["speed", "600", "900"]]
     with portal.page.expect_download() as download:
         panel.get_by_role("button", name="Export all").click()
     panel.get_by_role("button", name="Remove slow").click()
@@ -116,8 +118,8 @@ def test_what_is_on_a_balance_shaft_is_fitted_and_rounded(portal: Portal, url: s
     request = portal.bodies("/v1/round")[-1]
     answer = ask(url, "/v1/round", request)
     (on_shaft,) = answer["balance_shafts"][0]["counterweights"]
-    shown = panel.get_by_label(f"mass, kg, {on_shaft['web']}, as fitted").input_value()
-    assert float(shown) == on_shaft["mass_kg"]
+    text = panel.get_by_label(f"mass, kg, {on_shaft['web']}, as fitted").input_value()
+    assert float(text) == on_shaft["mass_kg"]
     after = answer["residual"]["after"]
     panel.get_by_label(f"mass, kg, {on_shaft['web']}, as fitted").press("End")
     rows = cells(panel.locator(".residual"))

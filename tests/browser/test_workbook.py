@@ -11,26 +11,28 @@ from tests.browser.portal import Portal, ask
 
 def _saved(portal: Portal, target: Path, button: str = "save-workbook", name: str = "2D12-90-2-20.xlsx") -> Path:
     portal.page.locator("#paste > summary").click()
-    with portal.page.expect_download() as found:
+    with portal.page.expect_download() as download:
         portal.page.click(f"#{button}")
-    assert found.value.suggested_filename == name
-    found.value.save_as(target)
+    assert download.value.suggested_filename == name
+    download.value.save_as(target)
     return target
 
 
 def test_a_workbook_is_optimised_and_comes_back_with_its_answer(portal: Portal, tmp_path: Path) -> None:
     portal.open("2d12")
     file = _saved(portal, tmp_path / "machine.xlsx")
-    with portal.page.expect_download() as found:
+    with portal.page.expect_download() as download:
         portal.page.set_input_files("#workbook", file)
-    found.value.save_as(tmp_path / "answer.xlsx")
+    download.value.save_as(tmp_path / "answer.xlsx")
     book = openpyxl.load_workbook(tmp_path / "answer.xlsx")
     heads, *rows = book["counterweights"].iter_rows(values_only=True)
     masses = [dict(zip(heads, row, strict=True)) for row in rows]
     (column,) = [str(head) for head in heads if str(head).startswith("mass_kg")]
     example = ask(portal.url, "/v1/examples/2d12")
     # independent: the same machine as JSON
-    expected = [one["mass_kg"] for one in ask(portal.url, "/v1/optimize", example)["counterweights"]]
+    expected = [
+        counterweight["mass_kg"] for counterweight in ask(portal.url, "/v1/optimize", example)["counterweights"]
+    ]
     assert [round(float(str(row[column])), 6) for row in masses] == [round(mass, 6) for mass in expected]
 
 
@@ -79,14 +81,14 @@ def test_a_saved_workbook_is_opened_into_the_form(portal: Portal, tmp_path: Path
 def test_what_is_wrong_is_named_by_its_cell_and_the_form_stays(portal: Portal, tmp_path: Path) -> None:
     portal.refusals = {400, 422}
     portal.open("2d12")
-    file, said = _saved(portal, tmp_path / "machine.xlsx"), portal.page.locator("#json-error")
+    file, element = _saved(portal, tmp_path / "machine.xlsx"), portal.page.locator("#json-error")
     book = openpyxl.load_workbook(file)
     (place,) = [row[1] for row in book["machine"].iter_rows() if row[0].value == "machine.speed_rpm"]
     speed, place.value = place.value, "fast"
     book.save(file)
     # opened into the form
     portal.page.set_input_files("#file", file)
-    expect(said).to_contain_text(f"machine!{place.coordinate}")
+    expect(element).to_contain_text(f"machine!{place.coordinate}")
     expect(portal.input("/machine/speed_rpm")).to_have_value("500")
     # optimised at once
     place.value, sheet = speed, book["webs"]
@@ -94,9 +96,9 @@ def test_what_is_wrong_is_named_by_its_cell_and_the_form_stays(portal: Portal, t
     sheet[f"{column}3"] = "heavy"
     book.save(file)
     portal.page.set_input_files("#workbook", file)
-    expect(said).to_contain_text(f"webs!{column}3")
+    expect(element).to_contain_text(f"webs!{column}3")
     # no workbook at all
     file.write_bytes(b"no workbook")
     portal.page.set_input_files("#workbook", file)
-    expect(said).not_to_contain_text("webs!")
-    expect(said).not_to_be_empty()
+    expect(element).not_to_contain_text("webs!")
+    expect(element).not_to_be_empty()

@@ -89,41 +89,41 @@ def machine(rng: np.random.Generator) -> Body:
 
 
 def with_choices(free: Body, mode: str, rng: np.random.Generator) -> Body:
-    found: Body = {**free, "webs": [dict(web) for web in free["webs"]]}
+    design: Body = {**free, "webs": [dict(web) for web in free["webs"]]}
     if mode in ("steps", "two sizes"):
-        found["catalogue"] = {"mass_step_kg": 0.5, "angle_step_deg": 5}
+        design["catalogue"] = {"mass_step_kg": 0.5, "angle_step_deg": 5}
     elif mode == "holes":
-        found["catalogue"] = {"mass_step_kg": 1.0}
-        for web in found["webs"]:
+        design["catalogue"] = {"mass_step_kg": 1.0}
+        for web in design["webs"]:
             web["hole_angles_deg"] = [web["sector"]["centre_deg"] + off for off in (-45, -15, 15, 45)]
     else:
         masses = np.unique(np.round(rng.uniform(2, 90, 12), 1)).tolist()
-        found["catalogue"] = {"masses_kg": masses, "angle_step_deg": 15}
+        design["catalogue"] = {"masses_kg": masses, "angle_step_deg": 15}
     if mode == "two sizes":
-        found["catalogue"]["max_part_numbers"] = 2
-    return found
+        design["catalogue"]["max_part_numbers"] = 2
+    return design
 
 
 @njit  # type: ignore[untyped-decorator]
 def _best_pair(
-    one: np.ndarray,
-    other: np.ndarray,
-    carried_one: np.ndarray,
-    carried_other: np.ndarray,
+    first: np.ndarray,
+    second: np.ndarray,
+    values: np.ndarray,
+    array: np.ndarray,
     weight: np.ndarray,
     still: np.ndarray,
 ) -> tuple[float, int, int]:
     """The smallest cost of one of (a, 2) with one of (b, 2), and which they are."""
-    best, at_one, at_other = np.inf, 0, 0
-    for i in range(len(one)):
-        for j in range(len(other)):
-            cost = carried_one[i] + carried_other[j]
+    best, count, number = np.inf, 0, 0
+    for i in range(len(first)):
+        for j in range(len(second)):
+            cost = values[i] + array[j]
             for k in range(2):
-                z = one[i, k] + other[j, k]
+                z = first[i, k] + second[j, k]
                 cost += weight[k] * (np.sqrt(z.real * z.real + z.imag * z.imag) + still[k])
             if cost < best:
-                best, at_one, at_other = cost, i, j
-    return best, at_one, at_other
+                best, count, number = cost, i, j
+    return best, count, number
 
 
 class Plain:
@@ -150,7 +150,12 @@ class Plain:
         self.still = np.abs([np.sum(counter), np.sum(levers * counter)])
         self.arms = np.array([[1.0, web["position_m"] - self.plane] for web in body["webs"]])
         self.options = [self._options(k) for k in range(len(body["webs"]))]
-        self.free = np.array([one.mass_kg * np.exp(1j * np.radians(one.angle_deg)) for one in free.counterweights])
+        self.free = np.array(
+            [
+                counterweight.mass_kg * np.exp(1j * np.radians(counterweight.angle_deg))
+                for counterweight in free.counterweights
+            ]
+        )
 
     def _options(self, k: int) -> np.ndarray:
         """Masses times directions of a web, nothing first."""
@@ -168,16 +173,16 @@ class Plain:
 
     def values(self, co: np.ndarray) -> np.ndarray:
         """Objectives of co-rotating parts (..., 2)."""
-        found: np.ndarray = np.sum(self.weight * (np.abs(co) + self.still), axis=-1)
-        return found
+        total: np.ndarray = np.sum(self.weight * (np.abs(co) + self.still), axis=-1)
+        return total
 
     def best(self, options: list[np.ndarray]) -> tuple[float, float]:
         """Objective and mass of the best set by moves of one and of two webs."""
-        found = (np.inf, 0.0)
+        minimum = (np.inf, 0.0)
         for price in _PRICES:
             taken = [some[np.argmin(np.abs(some - at))] for some, at in zip(options, self.free, strict=True)]
-            found = min(found, self._moved(taken, options, price))
-        return found
+            minimum = min(minimum, self._moved(taken, options, price))
+        return minimum
 
     def _moved(self, taken: list[complex], options: list[np.ndarray], price: float) -> tuple[float, float]:
         rng, effects = (
@@ -185,7 +190,7 @@ class Plain:
             [0.26 * some[:, None] * arm for some, arm in zip(options, self.arms, strict=True)],
         )
         mass = [np.abs(some) for some in options]
-        at = [int(np.argmin(np.abs(some - one))) for some, one in zip(options, taken, strict=True)]
+        at = [int(np.argmin(np.abs(some - phasor))) for some, phasor in zip(options, taken, strict=True)]
         webs, moved, best = len(at), True, np.inf
 
         def without(*which: int) -> tuple[np.ndarray, float]:
@@ -229,7 +234,7 @@ class Plain:
             ]
             return self.best(some)
 
-        found, moved = value(sizes), True
+        entry, moved = value(sizes), True
         for _ in range(6):
             if not moved:
                 break
@@ -237,9 +242,9 @@ class Plain:
             for da, db in ((0.5, 0), (-0.5, 0), (0, 0.5), (0, -0.5)):
                 pair = (min(sizes[0] + da, 90.0), max(sizes[1] + db, 0.5))
                 tried = value(pair)
-                if tried[0] < found[0] * (1 - 1e-12):
-                    found, sizes, moved = tried, pair, True
-        return found
+                if tried[0] < entry[0] * (1 - 1e-12):
+                    entry, sizes, moved = tried, pair, True
+        return entry
 
 
 def compared(seed: int, limit_s: float = _LIMIT_S, modes: Sequence[str] = MODES) -> Iterator[Compared]:
@@ -252,17 +257,17 @@ def compared(seed: int, limit_s: float = _LIMIT_S, modes: Sequence[str] = MODES)
         if mode not in modes:
             continue
         start = time.process_time()
-        asked = {"machine": body, "accuracy": {"time_limit_s": limit_s}}
-        found = optimize(OptimizeRequest.model_validate(asked))
+        request = {"machine": body, "accuracy": {"time_limit_s": limit_s}}
+        answer = optimize(OptimizeRequest.model_validate(request))
         seconds = time.process_time() - start
-        assert found.certificate is not None
+        assert answer.certificate is not None
         plain = Plain(body, optimum)
         value, mass = plain.of_two_sizes() if mode == "two sizes" else plain.best(plain.options)
-        proof = found.certificate
+        proof = answer.certificate
         limit = (proof.lower_bound or 0.0) + _GAP * proof.yardstick
         as_good = min((kg for objective, kg in plain.ends if objective <= limit), default=np.inf)
         yield Compared(
-            mode, len(free["throws"]), proof.objective, value, found.total_mass_kg or 0.0, mass, as_good,
+            mode, len(free["throws"]), proof.objective, value, answer.total_mass_kg or 0.0, mass, as_good,
             proof.yardstick, np.nan if proof.relative_gap is None else proof.relative_gap, seconds,
         )  # fmt: skip
 
@@ -270,23 +275,23 @@ def compared(seed: int, limit_s: float = _LIMIT_S, modes: Sequence[str] = MODES)
 def main(first: int, count: int, limit_s: float, modes: Sequence[str]) -> int:
     every = []
     for seed in range(first, first + count):
-        for one in compared(seed, limit_s, modes):
-            print(f"{seed:>4} {one}{', worse' * one.worse}{', heavier' * one.heavier}", flush=True)
-            every.append(one)
+        for entry in compared(seed, limit_s, modes):
+            print(f"{seed:>4} {entry}{', worse' * entry.worse}{', heavier' * entry.heavier}", flush=True)
+            every.append(entry)
     for mode in modes:
-        some = [one for one in every if one.mode == mode]
-        gaps, seconds = np.array([one.gap for one in some]), np.array([one.seconds for one in some])
-        heavier = np.array([one.mass - one.mass_by_hand for one in some])
-        worse = [one for one in some if one.worse]
+        some = [entry for entry in every if entry.mode == mode]
+        gaps, seconds = np.array([entry.gap for entry in some]), np.array([entry.seconds for entry in some])
+        heavier = np.array([entry.mass - entry.mass_by_hand for entry in some])
+        worse = [entry for entry in some if entry.worse]
         print(
             f"{mode:<10} machines {len(some):>4}, worse {len(worse):>3}, better"
-            f" {sum(one.value < one.by_hand - _GAP * one.yardstick for one in some):>3};"
+            f" {sum(entry.value < entry.by_hand - _GAP * entry.yardstick for entry in some):>3};"
             f" gap median {np.nanmedian(gaps):.1e}, largest {np.nanmax(gaps):.1e};"
             f" CPU median {np.median(seconds):.2f} s, largest {np.max(seconds):.1f};"
             f" mass against by hand, median {np.median(heavier):+.1f} kg, most {np.max(heavier):+.1f};"
-            f" heavier than as good by hand {sum(one.heavier for one in some)}"
+            f" heavier than as good by hand {sum(entry.heavier for entry in some)}"
         )
-    return int(any(one.worse for one in every))
+    return int(any(entry.worse for entry in every))
 
 
 if __name__ == "__main__":
@@ -295,5 +300,5 @@ if __name__ == "__main__":
     reader.add_argument("--first", type=int, default=0, help="seed of the first of them")
     reader.add_argument("--limit", type=float, default=_LIMIT_S, help="seconds for each answer")
     reader.add_argument("--modes", nargs="+", choices=MODES, default=MODES, help="what is chosen from")
-    said = reader.parse_args()
-    sys.exit(main(said.first, said.count, said.limit, said.modes))
+    arguments = reader.parse_args()
+    sys.exit(main(arguments.first, arguments.count, arguments.limit, arguments.modes))

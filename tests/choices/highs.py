@@ -43,7 +43,7 @@ def highs(statement: Statement, options: Options, relative_gap: float, yardstick
     if np.isfinite(statement.limits.max_total_mass):
         mass = sparse.csr_matrix(options.mass[slot, option][None])
         rows.append((mass, None, None, -np.inf, float(statement.limits.max_total_mass)))
-    found = milp(
+    solution = milp(
         np.concatenate([np.zeros(count + terms), np.ones(levels)]),
         integrality=np.concatenate([np.ones(count), np.zeros(terms + levels)]),
         bounds=Bounds(
@@ -53,14 +53,14 @@ def highs(statement: Statement, options: Options, relative_gap: float, yardstick
         constraints=[_constraint(parts, (count, terms, levels), low, high) for *parts, low, high in rows],
         options={"time_limit": time_limit_s, "mip_rel_gap": relative_gap},
     )
-    bound = -np.inf if found.mip_dual_bound is None else float(found.mip_dual_bound) * yardstick
-    if found.x is None:
-        return Chosen(np.nan, bound, int(found.mip_node_count or 0))
+    bound = -np.inf if solution.mip_dual_bound is None else float(solution.mip_dual_bound) * yardstick
+    if solution.x is None:
+        return Chosen(np.nan, bound, int(solution.mip_node_count or 0))
     taken = np.zeros(exists.shape)
-    taken[slot, option] = found.x[:count]
+    taken[slot, option] = solution.x[:count]
     chosen = np.argmax(taken, axis=-1)
     value = float(statement.objective(options.carried(chosen)))
-    return Chosen(value, bound, int(found.mip_node_count or 0), chosen)
+    return Chosen(value, bound, int(solution.mip_node_count or 0), chosen)
 
 
 def _constraint(parts: Sequence[Any], widths: tuple[int, int, int], low: Any, high: Any) -> LinearConstraint:

@@ -34,16 +34,16 @@ def scip(statement: Statement, options: Options, relative_gap: float, yardstick:
     ]  # fmt: skip
     for some in taken:
         model.addCons(quicksum(some) == 1)
-    fitted = [(k, o, one) for k, some in enumerate(taken) for o, one in enumerate(some) if o > 0]
+    fitted = [(k, o, value) for k, some in enumerate(taken) for o, value in enumerate(some) if o > 0]
     if np.isfinite(statement.limits.max_total_mass):
-        weighed = quicksum(float(options.mass[k, o]) * one for k, o, one in fitted)
+        weighed = quicksum(float(options.mass[k, o]) * value for k, o, value in fitted)
         model.addCons(weighed <= float(statement.limits.max_total_mass))
     if options.most_fitted is not None:
-        model.addCons(quicksum(one for _, _, one in fitted) <= options.most_fitted)
+        model.addCons(quicksum(value for _, _, value in fitted) <= options.most_fitted)
 
     def size(constant: complex, influence: np.ndarray, unit: float) -> object:
         """A variable no smaller than |c + H u| over a unit."""
-        effects = [(complex(influence[k] * options.unbalance[k, o]) / unit, one) for k, o, one in fitted]
+        effects = [(complex(influence[k] * options.unbalance[k, o]) / unit, value) for k, o, value in fitted]
         return _length(model, complex(constant) / unit, effects)
 
     norms, ceilings = statement.norms, statement.ceilings
@@ -55,25 +55,25 @@ def scip(statement: Statement, options: Options, relative_gap: float, yardstick:
     for i, unit in enumerate(ceilings.size.tolist()):
         length = size(ceilings.norms.constant[i], ceilings.norms.influence[i], unit / _SCALE)
         model.addCons(length <= _SCALE * float(ceilings.cap[i]) / unit)
-    found = _solved(model, quicksum(groups), unit_of_all)
+    solution = _solved(model, quicksum(groups), unit_of_all)
     if not model.getNSols():
-        return found
-    return found._replace(selection=np.array([np.argmax([model.getVal(one) for one in some]) for some in taken]))
+        return solution
+    return solution._replace(selection=np.array([np.argmax([model.getVal(value) for value in some]) for some in taken]))
 
 
 def scip_matched(problem: Problem, relative_gap: float, yardstick: float, time_limit_s: float) -> Chosen:
     """Parts on rows, each part a permutation matrix of its class; peaks are sums of lengths, or the largest of two."""
     unit = yardstick / _SCALE
     model, effects = _model(relative_gap, time_limit_s), []
-    for each, part in zip(problem.classes, problem.slices, strict=True):
-        count, added = each.mass.size, problem.of_place[:, part] / unit
+    for places, part in zip(problem.classes, problem.slices, strict=True):
+        count, added = places.mass.size, problem.of_place[:, part] / unit
         goes = [[model.addVar(vtype="B") for _ in range(count)] for _ in range(count)]
         for k in range(count):
             model.addCons(quicksum(goes[k]) == 1)
-            model.addCons(quicksum(one[k] for one in goes) == 1)
-        effects += [(added[:, t] * each.mass[k], goes[k][t]) for k in range(count) for t in range(count)]
+            model.addCons(quicksum(values[k] for values in goes) == 1)
+        effects += [(added[:, t] * places.mass[k], goes[k][t]) for k in range(count) for t in range(count)]
     lengths = [
-        _length(model, complex(start) / unit, [(complex(effect[j]), one) for effect, one in effects])
+        _length(model, complex(start) / unit, [(complex(effect[j]), value) for effect, value in effects])
         for j, start in enumerate(problem.start)
     ]
     peak = model.addVar(lb=0.0)
@@ -100,7 +100,7 @@ def _length(model: Any, constant: complex, effects: Iterable[tuple[complex, Any]
     length, parts, listed = model.addVar(lb=0.0), [], list(effects)
     for part in ("real", "imag"):
         value = model.addVar(lb=None)
-        model.addCons(value == getattr(constant, part) + quicksum(getattr(e, part) * one for e, one in listed))
+        model.addCons(value == getattr(constant, part) + quicksum(getattr(e, part) * value for e, value in listed))
         parts.append(value)
     model.addCons(parts[0] * parts[0] + parts[1] * parts[1] <= length * length)
     return length
@@ -110,5 +110,5 @@ def _solved(model: Any, objective: Any, unit: float) -> Chosen:
     """What is found until the gap or the time is reached."""
     model.setObjective(objective, "minimize")
     model.optimize()
-    found = model.getObjVal() * unit if model.getNSols() else np.nan
-    return Chosen(found, model.getDualbound() * unit, int(model.getNTotalNodes()))
+    obj_val = model.getObjVal() * unit if model.getNSols() else np.nan
+    return Chosen(obj_val, model.getDualbound() * unit, int(model.getNTotalNodes()))

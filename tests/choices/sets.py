@@ -19,16 +19,16 @@ def options_of(
     most_parts: int | None = None,
 ) -> Options:
     """Nothing, or every mass that a web can carry at every angle from the middle of its sector."""
-    limits, each = problem.limits, []
+    limits, values = problem.limits, []
     for k in range(limits.radius.size):
         some = [(part, mass) for part, mass in enumerate(masses_kg) if mass <= limits.max_mass[k]]
         ways = limits.centre[k] * direction(np.array(angles_deg))
         held = [(-1, 0.0, 0j), *((part, mass, mass * limits.radius[k] * way) for part, mass in some for way in ways)]
-        each.append(held)
-    most = max(len(held) for held in each)
-    filled = [held + [(-1, 0.0, 0j)] * (most - len(held)) for held in each]
-    parts, masses, unbalances = (np.array([[one[n] for one in held] for held in filled]) for n in range(3))
-    exists = np.arange(most) < np.array([len(held) for held in each])[:, None]
+        values.append(held)
+    most = max(len(held) for held in values)
+    filled = [held + [(-1, 0.0, 0j)] * (most - len(held)) for held in values]
+    parts, masses, unbalances = (np.array([[entry[n] for entry in held] for held in filled]) for n in range(3))
+    exists = np.arange(most) < np.array([len(held) for held in values])[:, None]
     return Options(unbalances, masses, parts, exists, most_fitted, most_parts)
 
 
@@ -38,13 +38,13 @@ def every_set(problem: Statement, options: Options) -> tuple[np.ndarray, Real]:
     sets = sets.reshape(-1, options.slots)
     mass = options.mass[np.arange(options.slots), sets]
     part = options.part[np.arange(options.slots), sets]
-    kept = np.sum(mass, axis=-1) <= problem.limits.max_total_mass * (1.0 + 1e-12)
+    mask = np.sum(mass, axis=-1) <= problem.limits.max_total_mass * (1.0 + 1e-12)
     if options.most_fitted is not None:
-        kept &= np.count_nonzero(sets, axis=-1) <= options.most_fitted
+        mask &= np.count_nonzero(sets, axis=-1) <= options.most_fitted
     if options.most_parts is not None:
-        used = sum((np.any(part == one, axis=-1).astype(int) for one in range(options.part.max() + 1)), start=0)
-        kept &= used <= options.most_parts
-    sets = sets[kept]
+        used = sum((np.any(part == index, axis=-1).astype(int) for index in range(options.part.max() + 1)), start=0)
+        mask &= used <= options.most_parts
+    sets = sets[mask]
     u = options.unbalance[np.arange(options.slots), sets]
     within = np.all(problem.ceilings.excess(u) <= CEILING_TOLERANCE, axis=-1)
     return sets[within], problem.objective(u[within])

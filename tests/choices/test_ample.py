@@ -64,8 +64,8 @@ def objective_of(body: Body, u: np.ndarray) -> np.ndarray:
         back = back + arm * 0.1 * 0.5 * mass * axis**2 * np.conj(crank)
     place = np.array([web["position_m"] for web in body["webs"]])
     force, moment = np.abs(co[0] + np.sum(u, axis=-1)), np.abs(co[1] + u @ place)
-    found: np.ndarray = square * (force + np.abs(back[0]) + WEIGHT * (moment + np.abs(back[1])))
-    return found
+    actual_square: np.ndarray = square * (force + np.abs(back[0]) + WEIGHT * (moment + np.abs(back[1])))
+    return actual_square
 
 
 def by_hand(body: Body, masses: np.ndarray, step_deg: float) -> float:
@@ -78,8 +78,8 @@ def by_hand(body: Body, masses: np.ndarray, step_deg: float) -> float:
         inside = turns[off <= 60.0 + 1e-9]
         options.append(np.r_[0.0, (RADIUS * masses[:, None] * np.exp(1j * np.radians(inside))).ravel()])
     free = answer(body)
-    start = np.array([complex(each.x_kg_m, each.y_kg_m) for each in free.counterweights])
-    u = np.array([some[np.argmin(np.abs(some - each))] for some, each in zip(options, start, strict=True)])
+    start = np.array([complex(counterweight.x_kg_m, counterweight.y_kg_m) for counterweight in free.counterweights])
+    u = np.array([some[np.argmin(np.abs(some - value))] for some, value in zip(options, start, strict=True)])
     best, left = float(objective_of(body, u)), len(options)
     while left:
         for k, some in enumerate(options):
@@ -97,7 +97,7 @@ def by_hand(body: Body, masses: np.ndarray, step_deg: float) -> float:
 def test_by_hand_and_by_answer_the_objective_is_the_same() -> None:
     """Independent: what the answer is judged by here."""
     free = answer(machine())
-    u = np.array([complex(each.x_kg_m, each.y_kg_m) for each in free.counterweights])
+    u = np.array([complex(counterweight.x_kg_m, counterweight.y_kg_m) for counterweight in free.counterweights])
     assert free.certificate is not None
     assert objective_of(machine(), u) == pytest.approx(free.certificate.objective, rel=1e-9)
 
@@ -135,14 +135,14 @@ def test_no_sums_are_listed_that_are_given_up_in_the_end(monkeypatch: pytest.Mon
 
 def test_what_a_foundry_would_cast() -> None:
     """Regression: eight castings of 256.5 kg were shown, and an objective of 40,882 N above this by 0.7 %."""
-    found = answer(machine(), mass_step_kg=0.5, angle_step_deg=5)
-    assert found.status == "optimal"
-    assert found.certificate is not None
+    optimum = answer(machine(), mass_step_kg=0.5, angle_step_deg=5)
+    assert optimum.status == "optimal"
+    assert optimum.certificate is not None
     # 40,549.4 N is proven of any masses, of which the lightest weigh 85.75 kg
-    assert found.certificate.objective <= 40_620.0
-    assert found.total_mass_kg is not None
-    assert found.total_mass_kg <= 100.0
-    assert sum(each.mass_kg > 0 for each in found.counterweights) <= 5
+    assert optimum.certificate.objective <= 40_620.0
+    assert optimum.total_mass_kg is not None
+    assert optimum.total_mass_kg <= 100.0
+    assert sum(counterweight.mass_kg > 0 for counterweight in optimum.counterweights) <= 5
 
 
 @pytest.mark.parametrize(
@@ -151,14 +151,14 @@ def test_what_a_foundry_would_cast() -> None:
 )
 def test_two_sizes(mass_step_kg: float, angle_step_deg: float, heaviest_kg: float) -> None:
     """Regression: 144 and 107.5 kg were shown, where by hand 43 and 2 kg come to 96 kg within the asked gap."""
-    found = answer(machine(), mass_step_kg=mass_step_kg, angle_step_deg=angle_step_deg, max_part_numbers=2)
-    assert found.status == "optimal"
-    assert len({each.mass_kg for each in found.counterweights if each.mass_kg > 0}) <= 2
-    assert found.total_mass_kg is not None
-    assert found.total_mass_kg <= heaviest_kg
-    assert found.certificate is not None
+    optimum = answer(machine(), mass_step_kg=mass_step_kg, angle_step_deg=angle_step_deg, max_part_numbers=2)
+    assert optimum.status == "optimal"
+    assert len({counterweight.mass_kg for counterweight in optimum.counterweights if counterweight.mass_kg > 0}) <= 2
+    assert optimum.total_mass_kg is not None
+    assert optimum.total_mass_kg <= heaviest_kg
+    assert optimum.certificate is not None
     # 1e-3 of the reference value above what is proven of any masses
-    assert found.certificate.objective <= 40_549.5 + 91.2
+    assert optimum.certificate.objective <= 40_549.5 + 91.2
 
 
 @pytest.mark.parametrize("seed", part(2, [2, 4, *(pytest.param(n, marks=pytest.mark.nightly) for n in range(5, 40))]))
@@ -166,12 +166,12 @@ def test_two_sizes(mass_step_kg: float, angle_step_deg: float, heaviest_kg: floa
 def test_no_worse_than_by_hand(seed: int, catalogue: str) -> None:
     body = machine(seed)
     if catalogue == "steps":
-        masses, found = 0.5 * np.arange(1, 181), answer(body, mass_step_kg=0.5, angle_step_deg=5)
+        masses, optimum = 0.5 * np.arange(1, 181), answer(body, mass_step_kg=0.5, angle_step_deg=5)
         step_deg = 5.0
     else:
         masses, step_deg = np.array([5.0, 10.0, 20.0, 35.0, 50.0, 70.0]), 15.0
-        found = answer(body, masses_kg=masses.tolist(), angle_step_deg=step_deg)
-    assert found.certificate is not None
-    gap = found.certificate.objective - by_hand(body, masses, step_deg)
+        optimum = answer(body, masses_kg=masses.tolist(), angle_step_deg=step_deg)
+    assert optimum.certificate is not None
+    gap = optimum.certificate.objective - by_hand(body, masses, step_deg)
     # or within the asked gap of what is proven of all
-    assert gap <= 1e-9 * found.certificate.yardstick or found.status == "optimal"
+    assert gap <= 1e-9 * optimum.certificate.yardstick or optimum.status == "optimal"

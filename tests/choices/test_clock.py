@@ -76,29 +76,29 @@ def test_a_tree_of_options_bounds_as_many_nodes_as_it_has_time_for(
         return bounded(work, nodes, *rest)
 
     monkeypatch.setattr(branch.Work, "bounded", slowly)
-    found = branch.branch(
+    actual_tree = branch.branch(
         options, begun(problem, options), -np.inf, -1.0, lambda bound: False, Clock(limit_s, seconds), np.inf
     )
     # a node has two children
-    assert limit_s <= found.nodes == seconds.now <= limit_s + 2
+    assert limit_s <= actual_tree.nodes == seconds.now <= limit_s + 2
 
 
 def test_sums_of_halves_that_there_is_no_time_for_are_not_made(monkeypatch: pytest.MonkeyPatch) -> None:
     """Analytic: 37 options on two slots of the first half, so 37 sums and then 1369; a second each."""
     problem, options = problem_of(4)
     every = [np.flatnonzero(some) for some in options.exists]
-    made = sums._distinct
-    for limit_s, asked in ((1_000.0, [37]), (1e6, [37, 1369, 37])):
+    distinct = sums._distinct
+    for limit_s, values in ((1_000.0, [37]), (1e6, [37, 1369, 37])):
         seconds, sizes = Seconds(), list[int]()
 
         def slowly(some: Any, seconds: Seconds = seconds, sizes: list[int] = sizes) -> Any:
             sizes.append(some.code.size)
             seconds.now += some.code.size
-            return made(some)
+            return distinct(some)
 
         monkeypatch.setattr(sums, "_distinct", slowly)
         pairs = halves.exhaust(options, every, begun(problem, options), 300_000, 3_000_000, Clock(limit_s, seconds))
-        assert sizes[: len(asked)] == asked
+        assert sizes[: len(values)] == values
         assert pairs == (limit_s > 1_000.0)
 
 
@@ -150,11 +150,11 @@ def test_a_tree_that_rounding_leaves_open_does_not_say_that_time_was_over(monkey
     least = 0.9 * problem.limits.reach
     relaxed = optima(problem.alone(), 1e-6, False).unbalance[0]
     at_rest = float(problem.at_rest)
-    asked = search.SearchGoal(1e-9 * at_rest, 0.0, at_rest, _LONG)
+    goal = search.SearchGoal(1e-9 * at_rest, 0.0, at_rest, _LONG)
     monkeypatch.setattr(tree, "_bounded", lambda *_: (0.0, []))
-    _, found = search.search(problem, least, relaxed, 0.0, asked)
-    assert (found.ended, found.nodes) == ("rounding", 1)
-    assert statuses.ended(found).startswith("The search has divided all that can be chosen")
+    _, search_result = search.search(problem, least, relaxed, 0.0, goal)
+    assert (search_result.ended, search_result.nodes) == ("rounding", 1)
+    assert statuses.ended(search_result).startswith("The search has divided all that can be chosen")
 
 
 def test_pairs_of_sums_are_compared_by_fewer_at_once_where_they_have_more_terms(

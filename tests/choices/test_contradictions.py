@@ -42,10 +42,10 @@ def _bounds(method: str, at_least: float | None) -> tuple[float, float]:
         least = 0.2 * problem.limits.reach
         u, result = semicontinuous.search(problem, least, relaxed, bound, SearchGoal(1e-6 * size, size, 0.0, 60.0))
     else:
-        first, others = np.arange(_WEBS) < 2, np.arange(_WEBS) >= 2
+        first, mask = np.arange(_WEBS) < 2, np.arange(_WEBS) >= 2
         webs = replace(problem, norms=problem.norms.only(first), limits=problem.limits.only(first))
         options = options_of(webs, [0.3 * most, 0.7 * most], [0.0, 120.0, 240.0], None, None)
-        beside = FreeWebs(problem.limits.only(others), np.zeros(1))
+        beside = FreeWebs(problem.limits.only(mask), np.zeros(1))
         options = replace(options, beside=beside)
         goal = SearchGoal(1e-6 * size, size, 0.0, 60.0)
         choice = mixed.search(problem, options, beside, relaxed[None], bound, goal)

@@ -17,8 +17,8 @@ def test_no_fewer_sets_are_counted_than_there_are() -> None:
     cost[rng.random(cost.shape) < 0.2] = np.inf
     cost[..., 0] = 0.0
     may = np.array([0.1, 0.5, 1.0, 3.0, 50.0])
-    each = np.array([[sum(taken) for taken in itertools.product(*slots)] for slots in cost])
-    there = np.sum(each <= may[:, None], axis=-1)
+    totals = np.array([[sum(taken) for taken in itertools.product(*slots)] for slots in cost])
+    there = np.sum(totals <= may[:, None], axis=-1)
     counted = at_most(cost, may)
     assert np.all(counted >= there * (1.0 - 1e-12))
     # analytic: where all are cheap enough it is their number
@@ -35,9 +35,9 @@ def test_the_best_of_the_cheap_ones_is_offered_and_what_all_others_cost_is_told(
     spent = np.sum(cost[0][np.arange(options.slots), sets], axis=-1)
     for may in (0.0, 0.3, 0.8, np.inf):
         incumbent = Incumbent(problem, options, 0.0)
-        others = offer_few(problem, incumbent, cost[0], may)
+        number = offer_few(problem, incumbent, cost[0], may)
         cheap = spent <= may
         assert np.isclose(incumbent.least, np.min(value[cheap], initial=np.inf), rtol=1e-12)
-        assert others <= np.min(spent[~cheap], initial=np.inf) * (1.0 + 1e-12)
-        assert others > may or not np.any(~cheap)
+        assert number <= np.min(spent[~cheap], initial=np.inf) * (1.0 + 1e-12)
+        assert number > may or not np.any(~cheap)
     assert lowest[0] < 3.0

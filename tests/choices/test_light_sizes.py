@@ -30,18 +30,18 @@ def test_lighter_and_within_all_limits(seed: int, webs: int, parts: int, share: 
         return
     mass = np.sum(options.of(options.mass, sets), axis=-1)
     level = share * float(np.min(values)) * (1.0 + 1e-9)
-    kept = np.flatnonzero(values <= level)
-    heaviest = sets[kept[np.argmax(mass[kept])]]
+    indices = np.flatnonzero(values <= level)
+    heaviest = sets[indices[np.argmax(mass[indices])]]
     light = np.random.default_rng(seed).uniform(0.1, 1.0, webs) * most * problem.limits.radius + 0j
     sizes = LightSizes(problem, options, light, list(range(webs)))
-    for known in (None, heaviest, None):
-        found = sizes.below(known, level, Clock(_LONG))
-        if found is None:
-            assert known is None
+    for value in (None, heaviest, None):
+        array = sizes.below(value, level, Clock(_LONG))
+        if array is None:
+            assert value is None
             continue
-        assert found.tolist() in sets[kept].tolist()
-        weighs = float(np.sum(options.of(options.mass, found)))
-        assert weighs >= np.min(mass[kept]) - 1e-9 * most
+        assert array.tolist() in sets[indices].tolist()
+        weighs = float(np.sum(options.of(options.mass, array)))
+        assert weighs >= np.min(mass[indices]) - 1e-9 * most
         assert weighs <= float(np.sum(options.of(options.mass, heaviest))) + 1e-9 * most
 
 

@@ -32,18 +32,18 @@ def test_the_lightest_of_all_sets(seed: int, webs: int, fitted: int | None, part
     if not len(sets):
         return
     level = share * float(np.min(values)) * (1.0 + 1e-9)
-    kept = sets[values <= level]
-    mass = float(np.min(np.sum(options.of(options.mass, kept), axis=-1)))
+    array = sets[values <= level]
+    mass = float(np.min(np.sum(options.of(options.mass, array), axis=-1)))
     every = [np.flatnonzero(some) for some in options.exists]
     largest = 2.0 * float(np.sum(np.max(options.mass, axis=-1)))
-    found = lightest(problem, options, every, level, (0.0, largest), Clock(_LONG))
+    bound = lightest(problem, options, every, level, (0.0, largest), Clock(_LONG))
     near = lighter(problem, options, every, level, largest, Clock(_LONG)).selection
-    assert found.selection is not None
+    assert bound.selection is not None
     assert near is not None
-    for chosen in (found.selection, near):
+    for chosen in (bound.selection, near):
         assert abs(float(np.sum(options.of(options.mass, chosen))) - mass) <= 1e-9 * most
         assert float(problem.objective(options.carried(chosen))) <= level
-    assert abs(found.lower_bound - mass) <= 1e-9 * most
+    assert abs(bound.lower_bound - mass) <= 1e-9 * most
     # nothing is lighter than the lightest
     none = lighter(problem, options, every, level, mass, Clock(_LONG))
     assert (none.selection, none.whole) == (None, True)
@@ -55,8 +55,8 @@ def test_without_time_nothing_is_claimed() -> None:
     problem = random_statement(3, "sum", (1.0, 1.0), False, False, False, webs=3)
     options = options_of(problem, [0.2 * float(np.max(problem.limits.max_mass))], [0.0, 180.0])
     every = [np.flatnonzero(some) for some in options.exists]
-    found = lightest(problem, options, every, np.inf, (0.25, 10.0), Clock(0.0))
-    assert (found.selection, found.lower_bound) == (None, 0.25)
+    bound = lightest(problem, options, every, np.inf, (0.25, 10.0), Clock(0.0))
+    assert (bound.selection, bound.lower_bound) == (None, 0.25)
 
 
 def test_masses_in_steps_are_whole_multiples() -> None:

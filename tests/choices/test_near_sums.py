@@ -14,7 +14,7 @@ def _pairs(
     lists: list[np.ndarray], radius: float, edges: list[float], cells: int, most: tuple[int, int]
 ) -> list[tuple[int, int, int, int]]:
     """Places in four lists of all pairs of sums that are found near, slab by slab, so many at a time."""
-    found, d = [], lists[0].shape[1]
+    values, d = [], lists[0].shape[1]
     axes = np.array([1, 2] if d > 2 else [0, d - 1])
     for slab in pairwise(edges):
         wide, start, ended = np.array(slab) + np.array([-radius, radius]), np.array([0, 0, -1, -1]), len(lists[2])
@@ -26,8 +26,8 @@ def _pairs(
                 first, sums, lists[2], lists[3], np.array(slab), axes, grid[0], side, grid[2], ALL, start, radius**2,
                 np.array(most),
             )  # fmt: skip
-            found += zip(*places[:, met[0]].tolist(), *met[1:].tolist(), strict=True)
-    return found
+            values += zip(*places[:, met[0]].tolist(), *met[1:].tolist(), strict=True)
+    return values
 
 
 @pytest.mark.parametrize("d", [1, 2, 4, 6])
@@ -38,9 +38,9 @@ def test_every_pair_once(d: int, most: tuple[int, int]) -> None:
     lists = [chance.normal(size=(n, d)) for n in (7, 9, 8, 6)]
     for n in (1, 3):
         lists[n] = lists[n][np.argsort(lists[n][:, 0])]
-    one = (lists[0][:, None] + lists[1][None]).reshape(-1, d)
-    other = (lists[2][:, None] + lists[3][None]).reshape(-1, d)
-    off = np.linalg.norm(one[:, None] - other, axis=-1)
+    first = (lists[0][:, None] + lists[1][None]).reshape(-1, d)
+    second = (lists[2][:, None] + lists[3][None]).reshape(-1, d)
+    off = np.linalg.norm(first[:, None] - second, axis=-1)
     radius = float(np.quantile(off, 0.02))
     i, j = np.nonzero(off <= radius)
     expected = sorted(zip(*np.divmod(i, 9), *np.divmod(j, 6), strict=True))

@@ -22,15 +22,15 @@ def test_what_no_tree_closes_is_found_to_a_ten_thousandth() -> None:
     """Regression: 32 webs whose options reach the floor, 10^32 sets; few slots with all options left 4e-4."""
     body = choice(32, None, 5)
     body["accuracy"] = {"relative_gap": 1e-4, "time_limit_s": 30}
-    found = optimized(body)
-    assert found.status == "optimal"
-    assert found.certificate is not None
-    assert found.certificate.lower_bound is not None
+    answer = optimized(body)
+    assert answer.status == "optimal"
+    assert answer.certificate is not None
+    assert answer.certificate.lower_bound is not None
     # analytic: nothing is below what turns against the shaft
-    assert found.residual.after is not None
-    floor = found.floor.force_N + found.floor.moment_Nm / 4.7
-    assert found.certificate.lower_bound == pytest.approx(floor, rel=1e-6)
-    assert 0 <= found.certificate.objective - floor <= 1e-4 * found.certificate.yardstick
+    assert answer.residual.after is not None
+    floor = answer.floor.force_N + answer.floor.moment_Nm / 4.7
+    assert answer.certificate.lower_bound == pytest.approx(floor, rel=1e-6)
+    assert 0 <= answer.certificate.objective - floor <= 1e-4 * answer.certificate.yardstick
 
 
 @pytest.mark.parametrize("limits", every(3, [{"max_counterweights": 31}, {}, {"max_total_mass_kg": 60.0}]))
@@ -41,7 +41,7 @@ def test_it_keeps_the_limits_and_is_never_worse(limits: dict[str, float]) -> Non
     best, _ = of_any_mass(request)
     problem, options = best.program.subset(0), stock(request.machine).options
 
-    def found() -> tuple[float, Incumbent]:
+    def outcome() -> tuple[float, Incumbent]:
         incumbent = Incumbent(problem, options, EQUAL * float(problem.at_rest))
         start(incumbent, best.optima.unbalance[:1])
         neighbourhoods(incumbent, best.optima.unbalance[0], 1, lambda: False, Clock(3600.0))
@@ -50,9 +50,9 @@ def test_it_keeps_the_limits_and_is_never_worse(limits: dict[str, float]) -> Non
         quarters(incumbent, lambda: False, Clock(1.5, lambda: next(looks)))
         return before, incumbent
 
-    before, incumbent = found()
+    before, incumbent = outcome()
     assert incumbent.selection is not None
     assert incumbent.least < before if not limits else incumbent.least <= before
     assert incumbent.least == float(problem.objective(options.carried(incumbent.selection)))
     assert bool(options.counts(problem, incumbent.selection))
-    assert np.array_equal(incumbent.selection, found()[1].selection)
+    assert np.array_equal(incumbent.selection, outcome()[1].selection)

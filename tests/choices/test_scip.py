@@ -7,7 +7,7 @@ from optimizer.program.verdict import yardstick
 from tests.choices.highs import SIDES, highs
 from tests.choices.scip import scip
 from tests.choices.sets import options_of
-from tests.choices.test_search import found_of
+from tests.choices.test_search import search_result_of
 from tests.night import part
 from tests.program.cases import random_statement
 
@@ -32,7 +32,7 @@ def test_four_webs(combine: str, budget: bool, ceilings: bool, fitted: int | Non
     masses = [0.1 * most, 0.25 * most, 0.4 * most, 0.6 * most, 0.8 * most]
     options = options_of(problem, masses, [0.0, 60.0, 120.0, 180.0, 240.0, 300.0], fitted)
     size = float(yardstick(problem.alone())[0])
-    chosen, ours = found_of(problem, options, relative_gap=1e-6)
+    chosen, ours = search_result_of(problem, options, relative_gap=1e-6)
     value = float(problem.objective(options.of(options.unbalance, chosen)))
     theirs = scip(problem, options, 1e-7, size, _LONG)
     assert value == pytest.approx(theirs.objective, abs=_CLOSE * size)
@@ -46,14 +46,14 @@ def test_two_solvers_of_others_agree() -> None:
     most = float(np.max(problem.limits.max_mass))
     options = options_of(problem, [0.3 * most, 0.6 * most], [0.0, 90.0, 180.0, 270.0], None)
     size = float(yardstick(problem.alone())[0])
-    theirs, others = (rival(problem, options, 1e-7, size, _LONG) for rival in (scip, highs))
-    chosen, _ = found_of(problem, options, relative_gap=1e-9)
+    theirs, bound = (rival(problem, options, 1e-7, size, _LONG) for rival in (scip, highs))
+    chosen, _ = search_result_of(problem, options, relative_gap=1e-9)
     value = float(problem.objective(options.of(options.unbalance, chosen)))
     assert theirs.objective == pytest.approx(value, abs=_CLOSE * size)
-    assert others.objective >= value - _CLOSE * size
-    assert others.objective <= value + 5.0 / SIDES**2 * size
-    assert others.lower_bound <= value + _CLOSE * size
-    for each in (theirs, others):
-        assert each.selection is not None
-        judged = float(problem.objective(options.of(options.unbalance, each.selection)))
-        assert judged == pytest.approx(each.objective, abs=_CLOSE * size)
+    assert bound.objective >= value - _CLOSE * size
+    assert bound.objective <= value + 5.0 / SIDES**2 * size
+    assert bound.lower_bound <= value + _CLOSE * size
+    for body in (theirs, bound):
+        assert body.selection is not None
+        judged = float(problem.objective(options.of(options.unbalance, body.selection)))
+        assert judged == pytest.approx(body.objective, abs=_CLOSE * size)

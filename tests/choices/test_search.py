@@ -23,7 +23,7 @@ from tests.program.cases import COMBINATIONS, random_statement
 _LONG = 3600.0
 
 
-def found_of(
+def search_result_of(
     problem: Statement, options: Options, relative_gap: float = 1e-12, time_limit_s: float = _LONG
 ) -> tuple[np.ndarray, SearchResult]:
     relaxed = optima(problem.alone(), 1e-6, False)
@@ -49,20 +49,20 @@ def method(request: pytest.FixtureRequest, monkeypatch: pytest.MonkeyPatch) -> s
 
 
 def check(problem: Statement, options: Options, method: str) -> None:
-    (chosen, found), (sets, values) = found_of(problem, options), every_set(problem, options)
-    assert found.method == (TREE if method == "tree" else EXHAUSTED)
-    assert found.ended is None
+    (chosen, search_result), (sets, values) = search_result_of(problem, options), every_set(problem, options)
+    assert search_result.method == (TREE if method == "tree" else EXHAUSTED)
+    assert search_result.ended is None
     if not len(sets):
-        assert not found.feasible
-        assert found.lower_bound == np.inf
+        assert not search_result.feasible
+        assert search_result.lower_bound == np.inf
         return
     size, best = float(yardstick(problem.alone())[0]), float(np.min(values))
     u = options.of(options.unbalance, chosen)
-    assert found.feasible
-    assert found.proven
+    assert search_result.feasible
+    assert search_result.proven
     assert best - 1e-12 * size <= float(problem.objective(u)) <= best + 1.001 * EQUAL * size
-    assert best - 1e-12 * size <= found.lower_bound + 1e-12 * size
-    assert found.lower_bound <= best + 1e-12 * size
+    assert best - 1e-12 * size <= search_result.lower_bound + 1e-12 * size
+    assert search_result.lower_bound <= best + 1e-12 * size
     # of equals the lightest, then the least sum of |u|^2
     equal = sets[values <= best + EQUAL * size]
     masses = np.sum(options.of(options.mass, equal), axis=-1)
@@ -133,10 +133,10 @@ def test_ten_million_sets(seed: int, monkeypatch: pytest.MonkeyPatch) -> None:
     size = float(yardstick(problem.alone())[0])
     for listed in (20_000, 0):
         monkeypatch.setattr(halves, "_LISTED", listed)
-        chosen, found = found_of(problem, options)
-        assert (found.method, found.proven) == (EXHAUSTED, True)
+        chosen, search_result = search_result_of(problem, options)
+        assert (search_result.method, search_result.proven) == (EXHAUSTED, True)
         assert abs(float(problem.objective(options.of(options.unbalance, chosen))) - best) <= EQUAL * size
-        assert abs(found.lower_bound - best) <= EQUAL * size
+        assert abs(search_result.lower_bound - best) <= EQUAL * size
 
 
 def test_whole_masses_make_ties(method: str) -> None:
@@ -147,7 +147,7 @@ def test_whole_masses_make_ties(method: str) -> None:
     problem = statement(combined([weighted_peak(force, 1.0)], "sum"), [], limits)
     options = options_of(problem, [1.0, 2.0, 3.0, 4.0], [0.0])
     check(problem, options, method)
-    chosen, _ = found_of(problem, options)
+    chosen, _ = search_result_of(problem, options)
     assert sorted(options.of(options.mass, chosen)) == [1.0, 1.0, 2.0, 2.0]
 
 
@@ -160,10 +160,10 @@ def test_webs_that_change_nothing_stay_empty(webs: int, fitted: int | None, part
     limits = Limits(ones, 4.0 * ones, ones > 0, ones + 0j, 0.0 * ones, ones, np.asarray(np.inf))
     problem = statement(combined([weighted_peak(moment, 1.0)], "sum"), [], limits)
     options = options_of(problem, [1.0, 2.0, 4.0], [0.0, 120.0, 240.0], fitted, parts)
-    chosen, found = found_of(problem, options)
-    assert found.feasible
+    chosen, search_result = search_result_of(problem, options)
+    assert search_result.feasible
     assert not np.any(chosen)
-    assert found.lower_bound == pytest.approx(float(problem.objective(np.zeros(webs, complex))), rel=1e-12)
+    assert search_result.lower_bound == pytest.approx(float(problem.objective(np.zeros(webs, complex))), rel=1e-12)
     if method == "halves":
         check(problem, options, method)
 
@@ -172,14 +172,14 @@ def test_a_search_that_is_out_of_time_says_so() -> None:
     problem = random_statement(3, "sum", (1.0, 1.0), False, False, False, webs=12)
     most = float(np.max(problem.limits.max_mass))
     options = options_of(problem, [0.1 * most, 0.2 * most, 0.3 * most], [30.0 * n for n in range(12)])
-    chosen, found = found_of(problem, options, 1e-12, 0.0)
+    chosen, search_result = search_result_of(problem, options, 1e-12, 0.0)
     size = float(yardstick(problem.alone())[0])
-    assert found.ended == "time"
-    assert found.feasible
-    assert not found.proven
+    assert search_result.ended == "time"
+    assert search_result.feasible
+    assert not search_result.proven
     value = float(problem.objective(options.of(options.unbalance, chosen)))
-    assert optima(problem.alone(), 1e-6, False).lower_bound[0] <= found.lower_bound + 1e-12 * size
-    assert found.lower_bound <= value
+    assert optima(problem.alone(), 1e-6, False).lower_bound[0] <= search_result.lower_bound + 1e-12 * size
+    assert search_result.lower_bound <= value
 
 
 def test_the_asked_gap_ends_the_search() -> None:
@@ -191,18 +191,18 @@ def test_the_asked_gap_ends_the_search() -> None:
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(search, "_SUMS", 0)
         patch.setattr(branch, "_SETS", 1)
-        chosen, found = found_of(problem, options, 0.02)
+        chosen, search_result = search_result_of(problem, options, 0.02)
     value = float(problem.objective(options.of(options.unbalance, chosen)))
-    assert found.ended is None
-    assert found.lower_bound <= best + 1e-12 * size <= value + 2e-12 * size
-    assert value - found.lower_bound <= 0.02 * size
+    assert search_result.ended is None
+    assert search_result.lower_bound <= best + 1e-12 * size <= value + 2e-12 * size
+    assert value - search_result.lower_bound <= 0.02 * size
 
 
 def test_the_continuous_optimum_is_never_beaten() -> None:
     for seed in range(6):
         problem = random_statement(seed, "sum", (1.0, 1.0), True, False, False, webs=5)
         options = options_of(problem, [float(np.max(problem.limits.max_mass)) * share for share in (0.2, 0.6)], [0.0])
-        chosen, _ = found_of(problem, options)
+        chosen, _ = search_result_of(problem, options)
         value = float(problem.objective(options.of(options.unbalance, chosen)))
         assert value >= optima(problem.alone(), 1e-6, False).lower_bound[0] * (1.0 - 1e-12)
 

@@ -17,21 +17,24 @@ def service(counterweight: ModuleType, url: str) -> Any:
 
 @pytest.fixture(scope="module")
 def request_2d12(service: Any) -> dict[str, Any]:
-    found: dict[str, Any] = service.example("2d12")
-    return found
+    example: dict[str, Any] = service.example("2d12")
+    return example
 
 
 def test_the_examples_are_listed(service: Any) -> None:
-    assert "2d12" in [one["name"] for one in service.examples()["examples"]]
+    assert "2d12" in [example["name"] for example in service.examples()["examples"]]
 
 
 def test_what_was_optimised_is_what_an_analysis_finds(service: Any, request_2d12: dict[str, Any]) -> None:
     answer = service.optimize(request_2d12)
     assert answer["status"] == "optimal"
-    fitted = [{key: one[key] for key in ("web", "mass_kg", "angle_deg")} for one in answer["counterweights"]]
-    found = service.analyze({**request_2d12, "counterweights": fitted, "outputs": ["residual"]})
+    fitted = [
+        {key: counterweight[key] for key in ("web", "mass_kg", "angle_deg")}
+        for counterweight in answer["counterweights"]
+    ]
+    reply = service.analyze({**request_2d12, "counterweights": fitted, "outputs": ["residual"]})
     # analytic: the same masses and angles leave the same force
-    assert found["residual"]["after"]["force"]["peak_N"] == pytest.approx(
+    assert reply["residual"]["after"]["force"]["peak_N"] == pytest.approx(
         answer["residual"]["after"]["force"]["peak_N"], rel=1e-12
     )
 
@@ -45,9 +48,9 @@ def test_a_front_goes_from_the_smallest_force_to_the_smallest_moment(
 
 
 def test_any_other_route_is_posted_to(service: Any) -> None:
-    asked = {"pin_count": 3, "pin_circle_radius_m": 0.05, "rotation_torque_Nm": 12.5}
+    fields = {"pin_count": 3, "pin_circle_radius_m": 0.05, "rotation_torque_Nm": 12.5}
     # analytic: 2 T/(n R)
-    assert service.post("v1/scroll/pin-loads", asked)["peak_N"] == pytest.approx(2 * 12.5 / (3 * 0.05))
+    assert service.post("v1/scroll/pin-loads", fields)["peak_N"] == pytest.approx(2 * 12.5 / (3 * 0.05))
 
 
 @pytest.mark.parametrize(("name", "begins"), [("report.pdf", b"%PDF-"), ("report.html", b"<!DOCTYPE html>")])
@@ -79,9 +82,9 @@ def test_a_report_of_an_unknown_kind_is_not_asked_for(
 def test_a_sweep_is_started_waited_for_and_read(service: Any, request_2d12: dict[str, Any], tmp_path: Path) -> None:
     speeds = [300.0, 400.0, 500.0]
     sweep = service.sweep({"base": request_2d12, "axes": [{"path": "/machine/speed_rpm", "values": speeds}]})
-    told: list[str] = []
-    assert service.finished(sweep, lambda state: told.append(state["state"]))["state"] == "done"
-    assert told[-1] == "done"
+    states: list[str] = []
+    assert service.finished(sweep, lambda state: states.append(state["state"]))["state"] == "done"
+    assert states[-1] == "done"
     rows = list(service.rows(sweep, columns="index,status,moment_peak_Nm,/machine/speed_rpm"))
     assert [row["/machine/speed_rpm"] for row in rows] == speeds
     # analytic: moments grow with the square of the speed; both are certified to a gap of 1e-6

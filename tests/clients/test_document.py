@@ -25,8 +25,8 @@ def test_the_examples_print_what_stands_below_them(language: str, url: str, tmp_
     name, command = _RUN[language]
     if shutil.which(command[0]) is None:
         pytest.skip(f"{command[0]} is not installed: the examples in {language} were NOT run")
-    found = [one for one in _EXAMPLE.findall((ROOT / "docs/clients.md").read_text()) if one[0] == language]
-    (tmp_path / name).write_text("".join(code.replace(_WRITTEN, url) for _, code, _ in found))
+    values = [match for match in _EXAMPLE.findall((ROOT / "docs/clients.md").read_text()) if match[0] == language]
+    (tmp_path / name).write_text("".join(code.replace(_WRITTEN, url) for _, code, _ in values))
     for file in (CLIENT, *CLIENT.parent.glob("verify*.py")):
         shutil.copy(file, tmp_path)
     environment = {**os.environ, "PYTHONPATH": ""}
@@ -35,12 +35,12 @@ def test_the_examples_print_what_stands_below_them(language: str, url: str, tmp_
     )
     assert ran.returncode == 0, ran.stderr
     # what head -c leaves without an end of line is no difference
-    assert ran.stdout.split() == "".join(shown for _, _, shown in found).replace("%PDF-\n", "%PDF-").split()
+    assert ran.stdout.split() == "".join(value for _, _, value in values).replace("%PDF-\n", "%PDF-").split()
 
 
 def test_every_language_has_an_example_of_every_route() -> None:
     text = (ROOT / "docs/clients.md").read_text()
     # tests/clients/test_typed.py runs those
     typed = ("TypeScript\n", "C#\n")
-    for section in (one for one in text.split("\n## ")[1:] if not one.startswith(typed)):
+    for section in (part for part in text.split("\n## ")[1:] if not part.startswith(typed)):
         assert {language for language, _, _ in _EXAMPLE.findall(section)} == set(_RUN), section.splitlines()[0]

@@ -24,11 +24,11 @@ class _Sent(Exception):
 
 
 def test_every_endpoint_has_a_method(counterweight: ModuleType, described: set[tuple[str, str]], tmp_path: Any) -> None:
-    sent: set[tuple[str, str]] = set()
+    names: set[tuple[str, str]] = set()
 
     class Recorder(counterweight.Service):  # type: ignore[misc, name-defined]
         def _send(self, method: str, path: str, *_: Any) -> Any:
-            sent.add((method, "/" + path.lstrip("/").partition("?")[0]))
+            names.add((method, "/" + path.lstrip("/").partition("?")[0]))
             raise _Sent
 
     service, job = Recorder(), {"links": {"self": "/v1/sweeps/{id}", "results": "/v1/sweeps/{id}/results"}}
@@ -58,14 +58,18 @@ def test_every_endpoint_has_a_method(counterweight: ModuleType, described: set[t
     tables = [path.rpartition("/")[2] for _, path in described if path.startswith("/v1/tables/")]
     calls += [(service.table, name, {}) for name in tables]
     # what has no method of its own yet is posted by its path
-    calls += [(service.post, one.path, {}) for one in COMPUTATIONS.values() if not hasattr(service, one.name)]
-    for call, *given in calls:
+    calls += [
+        (service.post, computation.path, {})
+        for computation in COMPUTATIONS.values()
+        if not hasattr(service, computation.name)
+    ]
+    for call, *values in calls:
         with pytest.raises(_Sent):
-            call(*given)
-    assert described <= sent, sorted(described - sent)
+            call(*values)
+    assert described <= names, sorted(described - names)
     # and nothing that is not there
-    known = {re.sub(r"[{].*?[}]", "{}", path) for _, path in described}
-    assert {re.sub(r"[{].*?[}]", "{}", path) for _, path in sent} <= known
+    texts = {re.sub(r"[{].*?[}]", "{}", path) for _, path in described}
+    assert {re.sub(r"[{].*?[}]", "{}", path) for _, path in names} <= texts
 
 
 def test_a_computation_is_answered_later(counterweight: ModuleType, url: str) -> None:
@@ -106,4 +110,4 @@ def test_sweeps_are_listed_page_by_page(counterweight: ModuleType, url: str) -> 
     base = service.example("single-horizontal")
     axes = [{"path": "/machine/speed_rpm", "values": [300.0]}]
     started = {service.sweep({"base": base, "axes": axes})["id"] for _ in range(3)}
-    assert started <= {one["id"] for one in service.sweeps(limit=2)}
+    assert started <= {sweep["id"] for sweep in service.sweeps(limit=2)}

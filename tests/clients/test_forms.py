@@ -23,12 +23,12 @@ FORMS = ROOT / "tests/clients/forms"
 DENO = shutil.which("deno", path=f"{Path(sys.executable).parent}{os.pathsep}{os.environ.get('PATH', '')}")
 
 
-def deno(*arguments: str | Path, given: str | None = None) -> subprocess.CompletedProcess[str]:
+def deno(*arguments: str | Path, stdin: str | None = None) -> subprocess.CompletedProcess[str]:
     assert DENO is not None
     quiet = {**os.environ, "NO_COLOR": "1", "DENO_NO_UPDATE_CHECK": "1"}
     command = [DENO, *map(str, arguments)]
     return subprocess.run(
-        command, cwd=FORMS, env=quiet, input=given, capture_output=True, text=True, timeout=300, check=False
+        command, cwd=FORMS, env=quiet, input=stdin, capture_output=True, text=True, timeout=300, check=False
     )
 
 
@@ -46,8 +46,8 @@ def packages() -> None:
 def test_types_of_the_document_compile(tmp_path: Path) -> None:
     document = tmp_path / "openapi.json"
     document.write_text(json.dumps(create_app(Settings()).openapi()))
-    made = deno("run", "--frozen", "--no-check", "--allow-all", "types.ts", document, tmp_path / "service.ts")
-    assert made.returncode == 0, made.stderr
+    process = deno("run", "--frozen", "--no-check", "--allow-all", "types.ts", document, tmp_path / "service.ts")
+    assert process.returncode == 0, process.stderr
     shutil.copy(FORMS / "pattern.ts", tmp_path)
     compiled = deno("check", "--quiet", "--no-config", "--no-lock", "--no-remote", tmp_path / "pattern.ts")
     assert compiled.returncode == 0, compiled.stderr
@@ -87,20 +87,22 @@ class _Inputs(HTMLParser):
 def test_a_generated_form_has_one_input_for_a_quantity() -> None:
     request = {"machine": bodies("")["2d12"]["machine"]}
     request["machine"]["throws"][0]["crank_radius_m"] = "140 mm"
-    given = json.dumps({"schema": OptimizeRequest.model_json_schema(), "formData": request})
-    made = deno("run", "--frozen", "--no-check", "--allow-env", "form.ts", given=given)
-    assert made.returncode == 0, made.stderr
-    found = json.loads(made.stdout)
-    assert found["errors"] == []
-    form = _Inputs(found["html"])
+    text = json.dumps({"schema": OptimizeRequest.model_json_schema(), "formData": request})
+    process = deno("run", "--frozen", "--no-check", "--allow-env", "form.ts", stdin=text)
+    assert process.returncode == 0, process.stderr
+    document = json.loads(process.stdout)
+    assert document["errors"] == []
+    form = _Inputs(document["html"])
     radius = "root_machine_throws_0_crank_radius_m"
     assert form.labels[radius].rstrip("*") == "Crank radius"
     assert (form.inputs[radius]["value"], form.inputs[radius]["type"]) == ("140 mm", "text")
     # a quantity that may be null has one input as well
     assert form.inputs["root_machine_overspeed_rpm"]["type"] == "text"
     # what is left to choose: a kind, one of some words, whether there is something or nothing
-    choosers = [one for one in form.choosers if re.search(r"__(any|one)of_select$", one)]
+    choosers = [chooser for chooser in form.choosers if re.search(r"__(any|one)of_select$", chooser)]
     assert choosers
     schemas = OptimizeRequest.model_json_schema()["$defs"]
-    numbers = {name for one in schemas.values() for name, field in one["properties"].items() if "x-unit" in field}
-    assert [one for one in choosers if one.rsplit("__", 1)[0].endswith(tuple(f"_{name}" for name in numbers))] == []
+    numbers = {name for schema in schemas.values() for name, field in schema["properties"].items() if "x-unit" in field}
+    assert [
+        chooser for chooser in choosers if chooser.rsplit("__", 1)[0].endswith(tuple(f"_{name}" for name in numbers))
+    ] == []

@@ -32,7 +32,7 @@ def recorded(drawing: Drawing) -> Json:
     for n, face in enumerate(drawing.faces()):
         own = list(edges_of(face, n))
         edges += own
-        coedges = [{"edgeId": one["id"], "orientation": True} for one in own]
+        coedges = [{"edgeId": fields["id"], "orientation": True} for fields in own]
         about = {"id": f"J{n}", "orientation": True, "loops": [{"type": "OUTER", "coedges": coedges}]}
         if face["type"] == "plane":
             surface = {"type": "plane", "origin": face["centre_m"], "normal": face["normal"]}
@@ -103,21 +103,21 @@ def printed(onshape: str, url: str, *arguments: str) -> Any:
         "PYTHONPATH": str(CLIENT.parent),
     }  # fmt: skip
     command = [sys.executable, str(EXAMPLE), "DOC", "WORK", "ELEMENT", *arguments]
-    done = subprocess.run(command, env=environment, capture_output=True, text=True, timeout=120, check=False)
-    assert done.returncode == 0, done.stderr
-    return json.loads(done.stdout)
+    process = subprocess.run(command, env=environment, capture_output=True, text=True, timeout=120, check=False)
+    assert process.returncode == 0, process.stderr
+    return json.loads(process.stdout)
 
 
 def test_a_part_studio_becomes_a_machine(onshape: str, url: str, tmp_path: Path) -> None:
     shaft = printed(onshape, url)
-    assert [one["crank_radius_m"] for one in shaft["throws"]] == pytest.approx([0.14, 0.14])
-    assert [one["envelope"]["thickness_m"] for one in shaft["webs"]] == pytest.approx([0.07] * 4)
-    assert [one["envelope"]["inner_radius_m"] for one in shaft["webs"]] == pytest.approx([0.12] * 4)
+    assert [throw["crank_radius_m"] for throw in shaft["throws"]] == pytest.approx([0.14, 0.14])
+    assert [web["envelope"]["thickness_m"] for web in shaft["webs"]] == pytest.approx([0.07] * 4)
+    assert [web["envelope"]["inner_radius_m"] for web in shaft["webs"]] == pytest.approx([0.12] * 4)
     # analytic: a couple of 5.61 kg m2 in planes 0.97 m apart
-    assert [one["x_kg_m"] for one in shaft["unbalances"]] == pytest.approx([5.61 / 0.97, -5.61 / 0.97])
-    said = tmp_path / "machine.json"
+    assert [unbalance["x_kg_m"] for unbalance in shaft["unbalances"]] == pytest.approx([5.61 / 0.97, -5.61 / 0.97])
+    path = tmp_path / "machine.json"
     rows = [{"axis_deg": axis, "reciprocating_mass_kg": 250} for axis in (0, 180)]
-    said.write_text(json.dumps({"machine": {"speed_rpm": 500, "throws": [{"rows": [row]} for row in rows]}}))
-    answer = printed(onshape, url, str(said))
+    path.write_text(json.dumps({"machine": {"speed_rpm": 500, "throws": [{"rows": [row]} for row in rows]}}))
+    answer = printed(onshape, url, str(path))
     assert answer["status"] == "optimal"
     assert answer["total_mass_kg"] > 0

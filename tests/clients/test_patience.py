@@ -19,12 +19,12 @@ _GOOD: Answer = (200, {}, b'{"status": "optimal"}')
 @contextmanager
 def serving(answers: Iterator[Answer]) -> Iterator[tuple[str, list[tuple[str, dict[str, str]]]]]:
     """A server that gives one answer after the other; where it is, and what it was sent."""
-    seen: list[tuple[str, dict[str, str]]] = []
+    values: list[tuple[str, dict[str, str]]] = []
 
     class Handler(BaseHTTPRequestHandler):
         def _answer(self) -> None:
             self.rfile.read(int(self.headers.get("Content-Length", "0")))
-            seen.append((self.path, {name.lower(): value for name, value in self.headers.items()}))
+            values.append((self.path, {name.lower(): value for name, value in self.headers.items()}))
             status, headers, content = next(answers)
             self.send_response(status)
             for name, value in headers.items():
@@ -42,16 +42,16 @@ def serving(answers: Iterator[Answer]) -> Iterator[tuple[str, list[tuple[str, di
         thread = threading.Thread(target=server.serve_forever, kwargs={"poll_interval": 0.01})
         thread.start()
         try:
-            yield f"http://127.0.0.1:{server.server_port}", seen
+            yield f"http://127.0.0.1:{server.server_port}", values
         finally:
             server.shutdown()
             thread.join()
 
 
 def busy(status: int, **headers: str) -> Answer:
-    said = {"title": "Busy", "status": status, "detail": "Later."}
+    error = {"title": "Busy", "status": status, "detail": "Later."}
     named = {name.replace("_", "-"): value for name, value in headers.items()}
-    return status, named, json.dumps(said).encode()
+    return status, named, json.dumps(error).encode()
 
 
 @pytest.fixture
@@ -63,14 +63,14 @@ def waited(counterweight: ModuleType, monkeypatch: pytest.MonkeyPatch) -> list[f
     return times
 
 
-@pytest.mark.parametrize(("said", "wait_s"), [(busy(503, Retry_After="1"), 1.0), (busy(429, Retry_After="0"), 0.0)])
+@pytest.mark.parametrize(("entry", "wait_s"), [(busy(503, Retry_After="1"), 1.0), (busy(429, Retry_After="0"), 0.0)])
 def test_it_comes_back_when_it_is_told_to(
-    counterweight: ModuleType, waited: list[float], said: Answer, wait_s: float
+    counterweight: ModuleType, waited: list[float], entry: Answer, wait_s: float
 ) -> None:
-    with serving(iter([said, _GOOD])) as (url, seen):
+    with serving(iter([entry, _GOOD])) as (url, requests):
         assert counterweight.Service(url).optimize({}) == {"status": "optimal"}
     assert waited == [wait_s]
-    assert len(seen) == 2
+    assert len(requests) == 2
 
 
 def test_it_comes_back_on_the_date_it_is_told(counterweight: ModuleType, waited: list[float]) -> None:
@@ -89,24 +89,24 @@ def test_it_comes_back_on_the_date_it_is_told(counterweight: ModuleType, waited:
 )
 def test_it_gives_up(counterweight: ModuleType, waited: list[float], answer: Answer) -> None:
     refusal = pytest.raises(counterweight.Refused, match="Busy: Later")
-    with serving(iter([answer])) as (url, seen), refusal as refused:
+    with serving(iter([answer])) as (url, requests), refusal as refused:
         counterweight.Service(url, patience_s=5).optimize({})
     assert waited == []
     assert refused.value.status == answer[0]
-    assert len(seen) == 1
+    assert len(requests) == 1
 
 
 def test_its_patience_is_for_all_waits_together(counterweight: ModuleType, waited: list[float]) -> None:
-    with serving(iter([busy(429, Retry_After="1")] * 9)) as (url, seen), pytest.raises(counterweight.Refused):
+    with serving(iter([busy(429, Retry_After="1")] * 9)) as (url, requests), pytest.raises(counterweight.Refused):
         counterweight.Service(url, patience_s=2.5).optimize({})
     assert waited == [1.0, 1.0]
-    assert len(seen) == 3
+    assert len(requests) == 3
 
 
 def test_a_sweep_that_is_tried_again_is_the_same_sweep(counterweight: ModuleType) -> None:
-    with serving(iter([busy(503, Retry_After="0"), _GOOD])) as (url, seen):
+    with serving(iter([busy(503, Retry_After="0"), _GOOD])) as (url, requests):
         counterweight.Service(url).sweep({})
-    assert seen[0][1]["idempotency-key"] == seen[1][1]["idempotency-key"]
+    assert requests[0][1]["idempotency-key"] == requests[1][1]["idempotency-key"]
 
 
 def test_a_proxy_that_answers_in_its_own_way(counterweight: ModuleType) -> None:
@@ -125,8 +125,8 @@ def test_the_key_goes_to_the_service_and_not_to_where_it_redirects(counterweight
 
 
 def test_paths_and_links_behind_a_proxy_with_a_prefix(counterweight: ModuleType) -> None:
-    with serving(iter([_GOOD, _GOOD])) as (url, seen):
+    with serving(iter([_GOOD, _GOOD])) as (url, requests):
         service = counterweight.Service(f"{url}/balance/")
         service.examples()
         service.state({"links": {"self": "/balance/v1/sweeps/5f0c"}})
-    assert [path for path, _ in seen] == ["/balance/v1/examples", "/balance/v1/sweeps/5f0c"]
+    assert [path for path, _ in requests] == ["/balance/v1/examples", "/balance/v1/sweeps/5f0c"]

@@ -71,7 +71,7 @@ def test_an_infeasible_machine_has_its_report_too(url: str, body: Any) -> None:
 def test_what_an_output_needs_is_asked_for_by_its_field(url: str, body: Any) -> None:
     status, _, content = post(url, {**body, "outputs": ["flywheel"]}, Accept="application/pdf")
     assert status == 422
-    assert "/machine/flywheel" in [one["pointer"] for one in json.loads(content)["errors"]]
+    assert "/machine/flywheel" in [error["pointer"] for error in json.loads(content)["errors"]]
 
 
 def test_to_be_answered_later_is_no_way_to_get_a_document(url: str, body: Any) -> None:

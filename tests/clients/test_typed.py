@@ -21,11 +21,11 @@ _MONO = ["-r:System.Net.Http", "-r:System.Runtime.Serialization"]
 
 def example(language: str) -> tuple[str, str]:
     """Code of a language, and what it prints."""
-    found = re.search(
+    match = re.search(
         rf"```{language}\n(.*?)```\n\n```text\n(.*?)```", (ROOT / "docs/clients.md").read_text(), re.DOTALL
     )
-    assert found is not None
-    return found[1], found[2]
+    assert match is not None
+    return match[1], match[2]
 
 
 def ran(language: str, code: str, folder: Path) -> str:
@@ -43,17 +43,17 @@ def ran(language: str, code: str, folder: Path) -> str:
         subprocess.run(["mcs", *_MONO, "Program.cs", helper, "-out:program.exe"], cwd=folder, check=True, timeout=120)
         command = ["mono", "program.exe"]
     environment = {**os.environ, "DENO_NO_UPDATE_CHECK": "1", "DENO_DIR": str(folder / "deno")}
-    done = subprocess.run(
+    process = subprocess.run(
         command, cwd=folder, env=environment, capture_output=True, text=True, timeout=180, check=False
     )
-    assert done.returncode == 0, done.stderr
-    return done.stdout
+    assert process.returncode == 0, process.stderr
+    return process.stdout
 
 
 @pytest.mark.parametrize("language", ["typescript", "csharp"])
 def test_the_examples_print_what_stands_below_them(language: str, url: str, tmp_path: Path) -> None:
-    code, shown = example(language)
-    assert ran(language, code.replace(_WRITTEN, url), tmp_path) == shown
+    code, answer = example(language)
+    assert ran(language, code.replace(_WRITTEN, url), tmp_path) == answer
 
 
 # ---- a service in trouble

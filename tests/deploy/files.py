@@ -15,12 +15,12 @@ DEPLOY = ROOT / "deploy"
 
 def module(path: Path) -> ModuleType:
     """A script as a module."""
-    found = importlib.util.spec_from_file_location(path.stem, path)
-    assert found is not None
-    assert found.loader is not None
-    made = importlib.util.module_from_spec(found)
-    found.loader.exec_module(made)
-    return made
+    spec = importlib.util.spec_from_file_location(path.stem, path)
+    assert spec is not None
+    assert spec.loader is not None
+    actual_module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(actual_module)
+    return actual_module
 
 
 def settings_variables() -> set[str]:
@@ -41,17 +41,17 @@ def instructions() -> list[tuple[str, str]]:
 def dockerfile_environment() -> dict[str, str]:
     """ENV of the last stage."""
     last = instructions()[max(i for i, (kind, _) in enumerate(instructions()) if kind == "FROM") :]
-    return dict(one.split("=", 1) for kind, rest in last if kind == "ENV" for one in rest.split())
+    return dict(part.split("=", 1) for kind, rest in last if kind == "ENV" for part in rest.split())
 
 
 def compose() -> dict[str, Any]:
-    found: dict[str, Any] = yaml.safe_load((DEPLOY / "compose.yaml").read_text("utf-8"))
-    return found
+    fields: dict[str, Any] = yaml.safe_load((DEPLOY / "compose.yaml").read_text("utf-8"))
+    return fields
 
 
 def manifests() -> dict[str, dict[str, Any]]:
     """The objects of Kubernetes by kind."""
     files = sorted(file for file in (DEPLOY / "kubernetes").iterdir() if file.stem != "kustomization")
-    found = [yaml.safe_load(file.read_text("utf-8")) for file in files]
-    assert len({one["kind"] for one in found}) == len(found)
-    return {one["kind"]: one for one in found}
+    values = [yaml.safe_load(file.read_text("utf-8")) for file in files]
+    assert len({entry["kind"] for entry in values}) == len(values)
+    return {entry["kind"]: entry for entry in values}

@@ -15,11 +15,11 @@ SKIPPED = {"name": "strange", "skip_reason": "not found"}
 FAULTY = {"name": "bad", "version": "1.0", "vulns": [{"id": "CVE-2026-1", "fix_versions": ["1.1"]}]}
 
 
-def audit(tmp_path: Path, found: list[dict[str, Any]] | None, code: int, log: str = "", strict: str = "0") -> Any:
+def audit(tmp_path: Path, values: list[dict[str, Any]] | None, code: int, log: str = "", strict: str = "0") -> Any:
     """Run the script with a pip-audit that finds and says what is given."""
     report = tmp_path / "report.json"
-    if found is not None:
-        report.write_text(json.dumps({"dependencies": found}))
+    if values is not None:
+        report.write_text(json.dumps({"dependencies": values}))
     program = tmp_path / "pip-audit"
     program.write_text(
         '#!/bin/sh\nfor word; do [ "$last" = --output ] && out=$word; last=$word; done\n'

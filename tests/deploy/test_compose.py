@@ -36,10 +36,10 @@ def test_the_settings_are_ones_of_the_service(monkeypatch: pytest.MonkeyPatch) -
 
 @pytest.mark.parametrize("name", OURS)
 def test_ours_run_with_a_read_only_root_and_no_rights(name: str) -> None:
-    found = SERVICES[name]
-    assert found["read_only"] is True
-    assert found["cap_drop"] == ["ALL"]
-    assert any(one.startswith("/tmp:") for one in found["tmpfs"])
+    service = SERVICES[name]
+    assert service["read_only"] is True
+    assert service["cap_drop"] == ["ALL"]
+    assert any(line.startswith("/tmp:") for line in service["tmpfs"])
 
 
 def test_the_service_is_published_on_this_machine_alone_unless_asked() -> None:
@@ -69,10 +69,10 @@ def test_workers_read_the_folder_at_the_same_path() -> None:
 
 @pytest.mark.parametrize("name", SERVICES)
 def test_memory_processors_and_disk_are_limited(name: str) -> None:
-    found = SERVICES[name]
-    assert {"mem_limit", "cpus", "pids_limit"} <= found.keys()
-    assert found["logging"]["options"].keys() == {"max-size", "max-file"}
-    assert name not in OURS or any("size=1g" in one for one in found["tmpfs"])
+    service = SERVICES[name]
+    assert {"mem_limit", "cpus", "pids_limit"} <= service.keys()
+    assert service["logging"]["options"].keys() == {"max-size", "max-file"}
+    assert name not in OURS or any("size=1g" in value for value in service["tmpfs"])
 
 
 def test_what_others_made_is_named_by_digest() -> None:

@@ -18,12 +18,12 @@ from tests.deploy.files import DEPLOY, ROOT, dockerfile_environment, instruction
 
 def copied() -> list[str]:
     """Sources of COPY from the context."""
-    found = (shlex.split(rest) for kind, rest in instructions() if kind == "COPY")
-    return [source for words in found if not words[0].startswith("--from") for source in words[:-1]]
+    parts = (shlex.split(rest) for kind, rest in instructions() if kind == "COPY")
+    return [source for words in parts if not words[0].startswith("--from") for source in words[:-1]]
 
 
 def last(kind: str) -> str:
-    return [rest for found, rest in instructions() if found == kind][-1]
+    return [rest for text, rest in instructions() if text == kind][-1]
 
 
 def test_everything_copied_is_there_and_reaches_the_builder() -> None:
@@ -75,8 +75,8 @@ def test_nobody_is_root_in_it() -> None:
 
 
 def test_its_environment_is_one_of_the_service(monkeypatch: pytest.MonkeyPatch) -> None:
-    found = dockerfile_environment()
-    for name, value in found.items():
+    environment = dockerfile_environment()
+    for name, value in environment.items():
         if name.startswith("COUNTERWEIGHT_"):
             assert name in settings_variables()
             monkeypatch.setenv(name, value)
@@ -90,9 +90,11 @@ def test_its_environment_is_one_of_the_service(monkeypatch: pytest.MonkeyPatch) 
 
 
 def test_it_writes_to_the_volume_and_to_tmp_alone() -> None:
-    found = dockerfile_environment()
+    environment = dockerfile_environment()
     for name in ("COUNTERWEIGHT_DATA_DIR", "COUNTERWEIGHT_KEYS_FILE", "NUMBA_CACHE_DIR"):
-        assert Path(found[name]).is_relative_to(last("VOLUME")) or Path(found[name]).is_relative_to("/tmp"), name
+        assert Path(environment[name]).is_relative_to(last("VOLUME")) or Path(environment[name]).is_relative_to(
+            "/tmp"
+        ), name
 
 
 def _compiling() -> str:
@@ -137,8 +139,8 @@ def test_the_processor_is_told_by_all_its_flags(tmp_path: Path, flags: str, name
     file = tmp_path / "cpuinfo"
     file.write_text(f"processor : 0\nflags\t\t: {flags}\nprocessor : 1\nflags : {_V3}\n")
     environment = {**os.environ, "CPUINFO": str(file)}
-    found = subprocess.run([DEPLOY / "processor.sh"], env=environment, capture_output=True, text=True, check=True)
-    assert found.stdout.strip() == name
+    process = subprocess.run([DEPLOY / "processor.sh"], env=environment, capture_output=True, text=True, check=True)
+    assert process.stdout.strip() == name
 
 
 @pytest.mark.parametrize(
@@ -153,9 +155,9 @@ def test_kernels_are_loaded_for_the_processor_unless_the_operator_names_one(
     cpu = tmp_path / "cpuinfo"
     cpu.write_text(f"flags : {_V3}\n")
     more = {"PATH": f"{tools}:{os.environ['PATH']}", "CPUINFO": str(cpu), "NUMBA_CPU_NAME": before}
-    told = 'echo "$NUMBA_CPU_NAME/${NUMBA_CPU_FEATURES-unset}"'
-    found = enter(compiled, tmp_path / "numba", "sh", "-c", told, **more)
-    assert (found.returncode, found.stdout.strip()) == (0, after)
+    text = 'echo "$NUMBA_CPU_NAME/${NUMBA_CPU_FEATURES-unset}"'
+    process = enter(compiled, tmp_path / "numba", "sh", "-c", text, **more)
+    assert (process.returncode, process.stdout.strip()) == (0, after)
 
 
 def test_the_health_check_asks_for_readiness() -> None:
@@ -174,8 +176,8 @@ def compiled(tmp_path: Path) -> Path:
 
 
 def enter(compiled: Path, cache: Path, *command: str, **more: str) -> subprocess.CompletedProcess[str]:
-    given = {"COMPILED": str(compiled), "NUMBA_CACHE_DIR": str(cache), "NUMBA_CPU_NAME": "generic", **more}
-    environment = {name: value for name, value in {**os.environ, **given}.items() if name != "NUMBA_CPU_FEATURES"}
+    fields = {"COMPILED": str(compiled), "NUMBA_CACHE_DIR": str(cache), "NUMBA_CPU_NAME": "generic", **more}
+    environment = {name: value for name, value in {**os.environ, **fields}.items() if name != "NUMBA_CPU_FEATURES"}
     return subprocess.run(
         [DEPLOY / "entrypoint.sh", *command], env=environment, capture_output=True, text=True, check=False
     )
@@ -183,8 +185,8 @@ def enter(compiled: Path, cache: Path, *command: str, **more: str) -> subprocess
 
 def test_the_kernels_are_put_where_they_can_be_written(compiled: Path, tmp_path: Path) -> None:
     cache = tmp_path / "numba"
-    found = enter(compiled, cache, "cat", str(cache / "program" / "kernel.nbi"))
-    assert (found.returncode, found.stdout) == (0, "kernel")
+    process = enter(compiled, cache, "cat", str(cache / "program" / "kernel.nbi"))
+    assert (process.returncode, process.stdout) == (0, "kernel")
     assert os.access(cache, os.W_OK)
     assert sorted(path.name for path in tmp_path.iterdir()) == ["compiled", "numba"]
 
@@ -193,13 +195,13 @@ def test_kernels_that_were_compiled_since_are_left_alone(compiled: Path, tmp_pat
     cache = tmp_path / "numba"
     enter(compiled, cache, "true")
     (cache / "program" / "kernel.nbi").write_bytes(b"newer")
-    found = enter(compiled, cache, "cat", str(cache / "program" / "kernel.nbi"))
-    assert found.stdout == "newer"
+    process = enter(compiled, cache, "cat", str(cache / "program" / "kernel.nbi"))
+    assert process.stdout == "newer"
 
 
 def test_the_command_takes_the_place_of_the_shell_and_its_code_is_that_of_the_container(
     compiled: Path, tmp_path: Path
 ) -> None:
-    found = enter(compiled, tmp_path / "numba", "sh", "-c", "exit 7")
-    assert found.returncode == 7
+    process = enter(compiled, tmp_path / "numba", "sh", "-c", "exit 7")
+    assert process.returncode == 7
     assert (DEPLOY / "entrypoint.sh").read_text().rstrip().endswith('exec "$@"')

@@ -28,31 +28,33 @@ def check(tmp_path: Path, **programs: str) -> subprocess.CompletedProcess[str]:
 
 
 def test_it_says_that_it_needs_root(tmp_path: Path) -> None:
-    found = check(tmp_path, id="echo 1000")
-    assert found.returncode == 2
-    assert "needs root" in found.stderr
+    process = check(tmp_path, id="echo 1000")
+    assert process.returncode == 2
+    assert "needs root" in process.stderr
 
 
 def test_it_says_what_is_missing_and_cannot_be_installed(tmp_path: Path) -> None:
-    found = check(tmp_path, id="echo 0", apt_get="exit 100", curl="exit 0")
-    assert found.returncode == 2
-    assert "needs buildah mmdebstrap jq, and could not install that" in found.stderr
+    process = check(tmp_path, id="echo 0", apt_get="exit 100", curl="exit 0")
+    assert process.returncode == 2
+    assert "needs buildah mmdebstrap jq, and could not install that" in process.stderr
 
 
 def test_it_takes_the_release_of_the_official_base() -> None:
     (base,) = (rest for kind, rest in instructions() if kind == "ARG")
     pattern = re.search(r"sed -n '(.*)' deploy/Dockerfile", SCRIPT)
     assert pattern is not None
-    found = subprocess.run(["sed", "-n", pattern[1]], input=f"ARG {base}\n", capture_output=True, text=True, check=True)
-    assert found.stdout.strip()
-    assert f"-slim-{found.stdout.strip()}@" in base
+    process = subprocess.run(
+        ["sed", "-n", pattern[1]], input=f"ARG {base}\n", capture_output=True, text=True, check=True
+    )
+    assert process.stdout.strip()
+    assert f"-slim-{process.stdout.strip()}@" in base
 
 
 def test_it_runs_commands_and_examples_that_there_are() -> None:
     commands = re.findall(r"counterweight ([a-z-]+) (\S+)", "\n".join(SCRIPT.split("\nstep ")[3:]))
-    asked = {command for command, _ in commands} - {"listens"}
-    assert asked <= set(get_command(app).commands)  # type: ignore[attr-defined]
-    assert asked >= {"optimize", "report", "sweep", "accuracy", "schema", "verify"}
+    actual_commands = {command for command, _ in commands} - {"listens"}
+    assert actual_commands <= set(get_command(app).commands)  # type: ignore[attr-defined]
+    assert actual_commands >= {"optimize", "report", "sweep", "accuracy", "schema", "verify"}
     for _, argument in commands:
         if argument.endswith(".json"):
             assert any((ROOT / "examples").rglob(argument)), argument

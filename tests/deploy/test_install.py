@@ -29,14 +29,14 @@ def _calls(folder: Path, present: tuple[str, ...], fails: str, *what: str) -> tu
     calls = folder / "calls"
     machine = {"PYTHON": str(folder / "machine"), "PIP_INDEX_URL": "https://mirror"}
     environment = os.environ | machine | {"CALLS": str(calls), "FAILS": fails, "PROGRAMS": str(programs)}
-    done = subprocess.run(
+    process = subprocess.run(
         [ROOT / "deploy/install.sh", folder / "env", *what],
         env=environment,
         capture_output=True,
         text=True,
         check=True,
     )
-    return [line.replace(str(folder), "") for line in calls.read_text().splitlines()], done.stdout
+    return [line.replace(str(folder), "") for line in calls.read_text().splitlines()], process.stdout
 
 
 def test_a_list_is_installed_by_uv_which_the_pip_beside_brings(tmp_path: Path) -> None:
@@ -49,10 +49,10 @@ def test_a_list_is_installed_by_uv_which_the_pip_beside_brings(tmp_path: Path) -
 
 
 def test_uv_that_is_there_installs_by_hash(tmp_path: Path) -> None:
-    calls, said = _calls(tmp_path, ("uv",), "", "list.txt")
+    calls, answers = _calls(tmp_path, ("uv",), "", "list.txt")
     options = "--no-deps --require-hashes --requirement list.txt"
     assert calls[-1] == f"uv pip install --python /env/bin/python --no-progress {options}"
-    assert said == ""
+    assert answers == ""
 
 
 def test_a_checkout_is_installed_where_it_lies(tmp_path: Path) -> None:
@@ -70,24 +70,24 @@ def test_uv_is_told_of_the_mirror_of_pip(tmp_path: Path) -> None:
     ):
         (programs / name).write_text(f"#!/bin/sh\n{script}\n")
         (programs / name).chmod(0o755)
-    known = {name: value for name, value in os.environ.items() if name not in ("PIP_INDEX_URL", "UV_DEFAULT_INDEX")}
+    fields = {name: value for name, value in os.environ.items() if name not in ("PIP_INDEX_URL", "UV_DEFAULT_INDEX")}
     command = [ROOT / "deploy/install.sh", tmp_path / "env", "list.txt"]
     assert (
-        subprocess.run(command, env=known, capture_output=True, text=True, check=True).stdout
+        subprocess.run(command, env=fields, capture_output=True, text=True, check=True).stdout
         == "https://pip.of/mirror\n"
     )
 
 
 @pytest.mark.parametrize("what", [("list.txt",), ("--editable", ".")])
 def test_without_uv_pip_installs_the_same_and_it_is_said(tmp_path: Path, what: tuple[str, ...]) -> None:
-    calls, said = _calls(tmp_path, ("uv", "pip"), "(uv)", *what)
+    calls, answers = _calls(tmp_path, ("uv", "pip"), "(uv)", *what)
     assert calls[-1].startswith("pip --disable-pip-version-check install ")
     assert calls[-1].endswith(" ".join(what))
-    assert said.startswith("without uv: pip installs")
+    assert answers.startswith("without uv: pip installs")
 
 
 def test_where_no_pip_is_the_environment_gets_its_own(tmp_path: Path) -> None:
-    calls, said = _calls(tmp_path, ("uv",), "(machine)(uv)", "list.txt")
+    calls, answers = _calls(tmp_path, ("uv",), "(machine)(uv)", "list.txt")
     assert "python -m ensurepip" in calls
     assert calls[-1].startswith("pip3 --disable-pip-version-check install ")
-    assert said.startswith("without uv")
+    assert answers.startswith("without uv")

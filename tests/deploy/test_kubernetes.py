@@ -52,9 +52,9 @@ def paths() -> frozenset[str]:
 )
 def test_probes_ask_where_there_is_an_answer(probe: str, path: str, paths: frozenset[str]) -> None:
     """Alive and ready are different: a service that is not ready must not be ended for it."""
-    asked = CONTAINER[probe]["httpGet"]
-    assert asked["path"] == path
-    assert asked["port"] in {port["name"] for port in CONTAINER["ports"]}
+    value = CONTAINER[probe]["httpGet"]
+    assert value["path"] == path
+    assert value["port"] in {port["name"] for port in CONTAINER["ports"]}
     assert path in paths
 
 
@@ -71,7 +71,7 @@ def test_the_settings_are_ones_of_the_service(monkeypatch: pytest.MonkeyPatch) -
 
 def test_the_secret_holds_what_is_taken_from_it() -> None:
     held = ALL["Secret"]["stringData"]
-    taken = [one["valueFrom"]["secretKeyRef"]["key"] for one in CONTAINER["env"]]
+    taken = [entry["valueFrom"]["secretKeyRef"]["key"] for entry in CONTAINER["env"]]
     taken += [item["key"] for item in POD["volumes"][2]["secret"]["items"]]
     assert set(held) == set(taken)
     assert set(taken) - {"keys.jsonl"} <= settings_variables()
@@ -119,8 +119,8 @@ def test_memory_suffices_for_the_computations_that_it_allows() -> None:
     set_here = ALL["ConfigMap"]["data"]
     # two above them, for clients that had little lately; docs/operation.md: 300 MB for the service, each sweep worker
     solves = int(set_here["COUNTERWEIGHT_CONCURRENT_SOLVES"]) + shares(Settings())["short"].reserve
-    others = int(set_here["COUNTERWEIGHT_SWEEP_WORKERS"]) + 1
-    assert (solves * Settings().solve_memory_mb + others * 300) * 1_000_000 < limit
+    counterweight_sweep_worker = int(set_here["COUNTERWEIGHT_SWEEP_WORKERS"]) + 1
+    assert (solves * Settings().solve_memory_mb + counterweight_sweep_worker * 300) * 1_000_000 < limit
 
 
 def test_no_proxy_is_believed_and_hosts_need_no_list_where_keys_are_asked_for() -> None:
@@ -143,7 +143,9 @@ def test_the_network_lets_in_http_and_out_what_is_needed() -> None:
 )
 def test_the_database_and_the_collector_may_be_in_a_namespace_of_their_own(port: int, label: dict[str, str]) -> None:
     rules = [
-        rule for rule in ALL["NetworkPolicy"]["spec"]["egress"] if port in {each["port"] for each in rule["ports"]}
+        rule
+        for rule in ALL["NetworkPolicy"]["spec"]["egress"]
+        if port in {rule_port["port"] for rule_port in rule["ports"]}
     ]
     places = [place.get("namespaceSelector", {}).get("matchLabels") for rule in rules for place in rule["to"]]
     assert label in places

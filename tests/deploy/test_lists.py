@@ -50,6 +50,6 @@ def test_what_is_left_out_on_purpose_is_no_fault() -> None:
     ],
 )
 def test_all_else_is_a_fault_and_is_said(line: str) -> None:
-    done = _check(f"cvxpy 1.9.3 requires scs, which is not installed.\n{line}")
-    assert done.returncode == 1
-    assert done.stderr.strip() == line
+    process = _check(f"cvxpy 1.9.3 requires scs, which is not installed.\n{line}")
+    assert process.returncode == 1
+    assert process.stderr.strip() == line

@@ -64,15 +64,15 @@ BOARD = {
 
 def tool(name: str) -> str:
     """A program that may be missing."""
-    found = shutil.which(name)
-    if found is None:
+    executable = shutil.which(name)
+    if executable is None:
         pytest.skip(f"{name} is missing: NOT CHECKED")
-    return found
+    return executable
 
 
 def rules() -> list[dict[str, Any]]:
-    found: list[dict[str, Any]] = [rule for group in RULE["spec"]["groups"] for rule in group["rules"]]
-    return found
+    actual_rules: list[dict[str, Any]] = [rule for group in RULE["spec"]["groups"] for rule in group["rules"]]
+    return actual_rules
 
 
 def names(metrics: Metrics) -> set[str]:
@@ -91,8 +91,8 @@ def series() -> set[str]:
 
 
 def test_every_series_that_is_named_is_given(series: set[str]) -> None:
-    shown = [target["expr"] for panel in DASHBOARD["panels"] for target in panel["targets"]]
-    for expression in [*(rule["expr"] for rule in rules()), *shown]:
+    exprs = [target["expr"] for panel in DASHBOARD["panels"] for target in panel["targets"]]
+    for expression in [*(rule["expr"] for rule in rules()), *exprs]:
         named = set(_METRIC.findall(expression))
         assert named or "up{" in expression
         assert named <= series, expression
@@ -106,16 +106,16 @@ def test_rules_fire_when_they_should_and_else_do_not(tmp_path: Path) -> None:
     assert tried == {rule["alert"] for rule in rules()}
     shutil.copy(ROOT / "tests/deploy/alerts.yaml", tmp_path)
     for command in (["check", "rules", "rules.yaml"], ["test", "rules", "alerts.yaml"]):
-        done = subprocess.run([promtool, *command], cwd=tmp_path, capture_output=True, text=True, check=False)
-        assert done.returncode == 0, done.stdout + done.stderr
+        process = subprocess.run([promtool, *command], cwd=tmp_path, capture_output=True, text=True, check=False)
+        assert process.returncode == 0, process.stdout + process.stderr
 
 
 def test_the_rules_are_taken_out_as_the_file_says(tmp_path: Path) -> None:
     text = (MONITORING / "prometheusrule.yaml").read_text()
     command = re.search(r"python3 -c '(.+)' < prometheusrule.yaml", text)
     assert command is not None
-    done = subprocess.run([sys.executable, "-c", command[1]], input=text, capture_output=True, text=True, check=True)
-    assert yaml.safe_load(done.stdout) == RULE["spec"]
+    process = subprocess.run([sys.executable, "-c", command[1]], input=text, capture_output=True, text=True, check=True)
+    assert yaml.safe_load(process.stdout) == RULE["spec"]
 
 
 def test_the_dashboard_is_one() -> None:
@@ -128,15 +128,15 @@ def test_the_dashboard_is_one() -> None:
 
 def test_prometheus_reads_the_expressions_of_the_dashboard(tmp_path: Path) -> None:
     promtool = tool("promtool")
-    shown = [target["expr"] for panel in DASHBOARD["panels"] for target in panel["targets"]]
+    exprs = [target["expr"] for panel in DASHBOARD["panels"] for target in panel["targets"]]
     recorded = [
         # the variables are Grafana's
         {"record": f"shown:{k}", "expr": expression.replace("$__rate_interval", "5m").replace("$__range", "1h")}
-        for k, expression in enumerate(shown)
+        for k, expression in enumerate(exprs)
     ]
     (tmp_path / "shown.yaml").write_text(yaml.safe_dump({"groups": [{"name": "shown", "rules": recorded}]}))
-    done = subprocess.run([promtool, "check", "rules", "shown.yaml"], cwd=tmp_path, capture_output=True, check=False)
-    assert done.returncode == 0, done.stdout + done.stderr
+    process = subprocess.run([promtool, "check", "rules", "shown.yaml"], cwd=tmp_path, capture_output=True, check=False)
+    assert process.returncode == 0, process.stdout + process.stderr
 
 
 def test_what_is_scraped_is_the_service() -> None:
@@ -162,18 +162,24 @@ OVERLAYS: dict[str, set[str]] = {
 
 
 @cache
-def made_of(folder: str) -> list[dict[str, Any]]:
+def resources_of(folder: str) -> list[dict[str, Any]]:
     """The resources that an overlay comes to."""
-    done = subprocess.run([tool("kubectl"), "kustomize", DEPLOY / folder], capture_output=True, text=True, check=False)
-    assert done.returncode == 0, done.stderr
-    return list(yaml.safe_load_all(done.stdout))
+    process = subprocess.run(
+        [tool("kubectl"), "kustomize", DEPLOY / folder], capture_output=True, text=True, check=False
+    )
+    assert process.returncode == 0, process.stderr
+    return list(yaml.safe_load_all(process.stdout))
 
 
 def test_overlays_are_what_kubernetes_knows(tmp_path: Path) -> None:
     names = [f"{folder.replace('/', '-')}.yaml" for folder in OVERLAYS]
     for name, folder in zip(names, OVERLAYS, strict=True):
         # resources of the operator have no schema among those of Kubernetes
-        own = [one for one in made_of(folder) if not one["apiVersion"].startswith("monitoring.coreos.com")]
+        own = [
+            resource
+            for resource in resources_of(folder)
+            if not resource["apiVersion"].startswith("monitoring.coreos.com")
+        ]
         (tmp_path / name).write_text(yaml.safe_dump_all(own))
     validate = Path(sys.executable).with_name("kubernetes-validate")
     checked = subprocess.run([validate, "--strict", *names], cwd=tmp_path, capture_output=True, text=True, check=False)
@@ -183,14 +189,14 @@ def test_overlays_are_what_kubernetes_knows(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("folder", OVERLAYS)
 def test_overlays_are_manifests(folder: str) -> None:
-    made = made_of(folder)
-    assert {one["kind"] for one in made} == BASE | OVERLAYS[folder]
-    by_kind = {one["kind"]: one for one in made}
+    resources = resources_of(folder)
+    assert {resource["kind"] for resource in resources} == BASE | OVERLAYS[folder]
+    by_kind = {resource["kind"]: resource for resource in resources}
     deployment = by_kind["Deployment"]["spec"]
     if folder.endswith("single"):
         container = deployment["template"]["spec"]["containers"][0]
         assert (deployment["replicas"], deployment["strategy"]) == (1, {"type": "Recreate"})
-        assert "COUNTERWEIGHT_DATABASE_URL" not in {each["name"] for each in container.get("env", [])}
+        assert "COUNTERWEIGHT_DATABASE_URL" not in {entry["name"] for entry in container.get("env", [])}
         assert by_kind["PersistentVolumeClaim"]["spec"]["accessModes"] == ["ReadWriteOnce"]
     if folder.endswith("cluster"):
         assert "replicas" not in deployment

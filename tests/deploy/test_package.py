@@ -23,7 +23,7 @@ _WITH_VALUE = {"--requirement", "-r", "--only-binary", "--target", "--python"}
 
 def packages(line: str) -> list[str]:
     """What a line of a document or message installs, as pip is told it."""
-    found = []
+    actual_words = []
     for arguments in _INSTALLS.findall(line):
         words = iter(re.sub(r"[\"']", " ", arguments).split())
         for word in words:
@@ -34,14 +34,14 @@ def packages(line: str) -> list[str]:
                 break
             elif not word.startswith(("-", "$@")):
                 # what a script was handed stands where it is called
-                found.append(word.rstrip(".,") or ".")
-    return found
+                actual_words.append(word.rstrip(".,") or ".")
+    return actual_words
 
 
 def is_ours(package: str) -> bool:
     """Whether it is this folder, with extras that there are."""
-    found = re.fullmatch(r"\.(?:\[([a-z,]+)\])?", package)
-    return found is not None and set((found[1] or "").split(",")) - {""} <= PROJECT["optional-dependencies"].keys()
+    match = re.fullmatch(r"\.(?:\[([a-z,]+)\])?", package)
+    return match is not None and set((match[1] or "").split(",")) - {""} <= PROJECT["optional-dependencies"].keys()
 
 
 @pytest.mark.parametrize(
@@ -68,11 +68,11 @@ def test_nothing_that_is_read_installs_a_package_by_its_name() -> None:
     for name in listed.splitlines():
         if name.endswith(ends) and not name.startswith("tests/") and (ROOT / name).is_file():
             for line in (ROOT / name).read_text("utf-8").splitlines():
-                if found := packages(line):
-                    installs.setdefault(name, []).extend(found)
+                if actual_packages := packages(line):
+                    installs.setdefault(name, []).extend(actual_packages)
     # of documents and messages
     assert {"docs/sweeps.md", "service/jobs/engines.py", "service/jobs/database.py"} <= installs.keys()
-    assert {name: found for name, found in installs.items() if not all(map(is_ours, found))} == {}
+    assert {name: texts for name, texts in installs.items() if not all(map(is_ours, texts))} == {}
 
 
 def test_the_distribution_is_not_called_as_the_one_of_another() -> None:

@@ -27,11 +27,11 @@ def site(tmp_path: Path) -> Path:
         for file in files:
             (site / file).parent.mkdir(parents=True, exist_ok=True)
             (site / file).write_bytes(bytes(100))
-        made = site / f"{name}-1.0.dist-info"
-        made.mkdir()
-        (made / "METADATA").write_text(f"Metadata-Version: 2.1\nName: {name}\nVersion: 1.0\n")
-        listed = [*files, f"{made.name}/METADATA", f"{made.name}/RECORD"]
-        (made / "RECORD").write_text("".join(f"{file},sha256=x,100\n" for file in listed))
+        path = site / f"{name}-1.0.dist-info"
+        path.mkdir()
+        (path / "METADATA").write_text(f"Metadata-Version: 2.1\nName: {name}\nVersion: 1.0\n")
+        listed = [*files, f"{path.name}/METADATA", f"{path.name}/RECORD"]
+        (path / "RECORD").write_text("".join(f"{file},sha256=x,100\n" for file in listed))
     return site
 
 

@@ -19,7 +19,7 @@ def locked(file: Path) -> dict[str, str]:
 
 
 def named(*requirements: str) -> set[str]:
-    return {canonicalize_name(Requirement(one).name) for one in requirements}
+    return {canonicalize_name(Requirement(requirement).name) for requirement in requirements}
 
 
 @pytest.mark.parametrize("file", LISTS, ids=lambda file: str(file.relative_to(ROOT)))
@@ -34,10 +34,10 @@ def test_a_list_holds_versions_and_hashes_alone(file: Path) -> None:
 
 def test_the_image_holds_every_extra() -> None:
     project = tomllib.loads((ROOT / "pyproject.toml").read_text("utf-8"))["project"]
-    wanted = named(*project["dependencies"])
+    texts = named(*project["dependencies"])
     for extra in project["optional-dependencies"].values():
-        wanted |= named(*extra)
-    assert wanted <= set(locked(DEPLOY / "requirements.txt")), "lock anew: make lock"
+        texts |= named(*extra)
+    assert texts <= set(locked(DEPLOY / "requirements.txt")), "lock anew: make lock"
 
 
 def test_the_lists_hold_what_the_project_names() -> None:

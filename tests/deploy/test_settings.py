@@ -41,7 +41,7 @@ def test_no_document_names_a_setting_that_there_is_not() -> None:
     compose = {"IMAGE", "PUBLISH", "DASK_WORKERS", "MEMORY", "CPUS"}
     # of the workbench's script without a window
     script = {"SHAFT", "MACHINE", "FOLDER", "URL", "FORCE"}
-    others = {
+    texts = {
         "COUNTERWEIGHT_KEY",
         *(f"COUNTERWEIGHT_{name}" for name in script),
         *(f"COUNTERWEIGHT_{name}" for name in compose),
@@ -49,4 +49,4 @@ def test_no_document_names_a_setting_that_there_is_not() -> None:
     for file in [*DEPLOY.rglob("*"), *(ROOT / "docs").rglob("*.md"), ROOT / "README.md"]:
         if file.is_file() and file.suffix != ".pyc":
             named = set(re.findall(r"\bCOUNTERWEIGHT_[A-Z_]+[A-Z]\b", file.read_text("utf-8")))
-            assert named <= settings_variables() | others, file
+            assert named <= settings_variables() | texts, file

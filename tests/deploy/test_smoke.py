@@ -50,12 +50,12 @@ def test_the_service_passes_and_nothing_is_left(service: tuple[str, str]) -> Non
     ran = smoke(url, key)
     assert ran.returncode == 0, ran.stderr
     assert ran.stdout.count("ok  ") == 9
-    asked = subprocess.run(
+    process = subprocess.run(
         ["curl", "--silent", "--header", f"Authorization: Bearer {key}", f"{url}/v1/sweeps"],
         capture_output=True,
         check=True,
     )
-    assert json.loads(asked.stdout)["sweeps"] == []
+    assert json.loads(process.stdout)["sweeps"] == []
 
 
 def test_a_wrong_key_does_not_pass(service: tuple[str, str]) -> None:
@@ -125,14 +125,14 @@ READY: Answers = {"/readyz": (200, {"status": "ready"})}
 def optimum(**changed: Any) -> dict[str, Any]:
     """The right answer to the machine of the script. Analytic: 30 kg, and 6 kg at 0.1 m and 600 rpm remain."""
     remains = 6 * 0.1 * (600 * 3.141592653589793 / 30) ** 2
-    found = {
+    answer = {
         "status": "optimal",
         "total_mass_kg": 30.0,
         "residual": {"after": {"force": {"peak_N": remains}}},
         "floor": {"force_N": remains},
         "certificate": {"objective": remains, "lower_bound": remains, "gap": 0.0, "relative_gap": 0.0},
     }
-    return {**found, **changed}
+    return {**answer, **changed}
 
 
 def test_an_answer_that_is_right_is_taken(impostor: Callable[[Answers], str]) -> None:

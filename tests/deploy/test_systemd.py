@@ -15,12 +15,12 @@ def unit() -> dict[str, list[str]]:
     """The settings of [Service], each as often as it is given."""
     text = (DEPLOY / "counterweight.service").read_text("utf-8")
     section = text.split("[Service]\n")[1].split("\n[")[0]
-    found: dict[str, list[str]] = {}
+    fields: dict[str, list[str]] = {}
     for line in section.splitlines():
         if line and not line.startswith("#"):
             name, _, value = line.partition("=")
-            found.setdefault(name, []).append(value)
-    return found
+            fields.setdefault(name, []).append(value)
+    return fields
 
 
 def test_it_starts_a_command_that_there_is() -> None:
@@ -37,11 +37,11 @@ def test_it_names_settings_of_the_service() -> None:
 
 def test_it_writes_only_where_it_may() -> None:
     """With ProtectSystem=strict that is what the state and cache directories are for."""
-    found = unit()
-    assert found["ProtectSystem"] == ["strict"]
-    folders = dict(value.split("=", 1) for value in found["Environment"])
-    assert folders["COUNTERWEIGHT_DATA_DIR"] == f"%S/{found['StateDirectory'][0]}"
-    assert folders["NUMBA_CACHE_DIR"] == f"%C/{found['CacheDirectory'][0]}"
+    actual_unit = unit()
+    assert actual_unit["ProtectSystem"] == ["strict"]
+    folders = dict(value.split("=", 1) for value in actual_unit["Environment"])
+    assert folders["COUNTERWEIGHT_DATA_DIR"] == f"%S/{actual_unit['StateDirectory'][0]}"
+    assert folders["NUMBA_CACHE_DIR"] == f"%C/{actual_unit['CacheDirectory'][0]}"
 
 
 def test_it_is_not_root() -> None:
@@ -52,9 +52,9 @@ def test_it_is_not_root() -> None:
 
 def test_memory_and_processors_are_limited() -> None:
     """And a worker that the kernel ends for its memory is the service's to replace, not a reason to end the service."""
-    found = unit()
-    assert {"MemoryMax", "CPUQuota", "TasksMax"} <= found.keys()
-    assert found["OOMPolicy"] == ["continue"]
+    actual_unit = unit()
+    assert {"MemoryMax", "CPUQuota", "TasksMax"} <= actual_unit.keys()
+    assert actual_unit["OOMPolicy"] == ["continue"]
 
 
 def test_kernels_may_be_compiled() -> None:

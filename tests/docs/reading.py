@@ -25,16 +25,16 @@ def blocks(text: str) -> list[Any]:
     return [json.loads(block) for block in re.findall(r"```json\n(.*?)```", text, re.DOTALL)]
 
 
-def agrees(shown: Any, found: Any) -> None:
+def agrees(subject: Any, number: Any) -> None:
     """Everything shown is in what was found, to the digits shown."""
-    if isinstance(shown, dict):
-        for key, value in shown.items():
-            agrees(value, found[key])
-    elif isinstance(shown, list):
-        assert len(shown) == len(found)
-        for one, other in zip(shown, found, strict=True):
-            agrees(one, other)
-    elif isinstance(shown, float):
-        assert found == pytest.approx(shown, rel=1e-4, abs=1e-8)
+    if isinstance(subject, dict):
+        for key, value in subject.items():
+            agrees(value, number[key])
+    elif isinstance(subject, list):
+        assert len(subject) == len(number)
+        for first, second in zip(subject, number, strict=True):
+            agrees(first, second)
+    elif isinstance(subject, float):
+        assert number == pytest.approx(subject, rel=1e-4, abs=1e-8)
     else:
-        assert shown == found
+        assert subject == number

@@ -73,12 +73,12 @@ def sentences(text: str) -> list[str]:
                 blocks.append([])
             blocks[-1].append(re.sub(r"^\s*(?:[*+-]|\d+\.|>)\s+", "", line).strip())
     paragraphs = (" ".join(block).strip() for block in blocks)
-    return [one for paragraph in paragraphs if paragraph for one in _SENTENCE_END.split(paragraph)]
+    return [part for paragraph in paragraphs if paragraph for part in _SENTENCE_END.split(paragraph)]
 
 
-def lengths(found: list[str]) -> Lengths:
+def lengths(tally: list[str]) -> Lengths:
     """Statistics of sentences; zeros where there are none."""
-    words = sorted(len(re.findall(r"\w+(?:[^\w\s]\w+)*", one)) for one in found)
+    words = sorted(len(re.findall(r"\w+(?:[^\w\s]\w+)*", words)) for words in tally)
     if not words:
         return Lengths(0, 0.0, 0.0)
     return Lengths(len(words), float(median(words)), float(words[(9 * len(words) - 1) // 10]))
@@ -92,7 +92,7 @@ def discouraged(text: str) -> list[tuple[str, str]]:
 
 def literals(package: Path) -> str:
     """Texts of five words or more in the code of a package, as paragraphs; docstrings are for readers of the code."""
-    found = []
+    tally = []
     for path in sorted(package.rglob("*.py")):
         nodes = list(ast.walk(ast.parse(path.read_text())))
         docstrings = {
@@ -110,8 +110,8 @@ def literals(package: Path) -> str:
             for node in nodes
             if isinstance(node, ast.Constant) and isinstance(node.value, str) and not {id(node)} & (docstrings | parts)
         ]
-        found += [text.strip() for text in texts if len(re.findall(r"[A-Za-z]+", text)) >= _SPOKEN and " " in text]
-    return "\n\n".join(found)
+        tally += [text.strip() for text in texts if len(re.findall(r"[A-Za-z]+", text)) >= _SPOKEN and " " in text]
+    return "\n\n".join(tally)
 
 
 def names() -> list[str]:
@@ -126,18 +126,18 @@ def text(name: str) -> str:
     """The document of a name, or the texts in the code of a package."""
     if name in _PACKAGES:
         return literals(ROOT / _PACKAGES[name])
-    found = (ROOT / name).read_text()
+    tally = (ROOT / name).read_text()
     # the table of the style page quotes what it advises against
-    return re.sub(r"^\|.*$", "", found, flags=re.MULTILINE) if name == "docs/style.md" else found
+    return re.sub(r"^\|.*$", "", tally, flags=re.MULTILINE) if name == "docs/style.md" else tally
 
 
 def main() -> None:
     """Print a row for each."""
     print(f"{'text':<58} sentences median p90 discouraged")
     for name in names():
-        found = lengths(sentences(text(name)))
+        tally = lengths(sentences(text(name)))
         print(
-            f"{name:<58} {found.sentences:9d} {found.median:6.1f} {found.p90:3.0f} {len(discouraged(text(name))):11d}"
+            f"{name:<58} {tally.sentences:9d} {tally.median:6.1f} {tally.p90:3.0f} {len(discouraged(text(name))):11d}"
         )
 
 

@@ -49,7 +49,7 @@ def first_column(page: str, heading: str) -> list[str]:
 def test_the_table_of_routes_is_complete() -> None:
     paths = create_app(Settings()).openapi()["paths"]
     listed = [name for row in re.findall(r"^\| (.+?) \|", INDEX, re.MULTILINE) for name in re.findall(r"`(.+?)`", row)]
-    assert sorted(listed) == sorted(f"{method.upper()} {path}" for path, found in paths.items() for method in found)
+    assert sorted(listed) == sorted(f"{method.upper()} {path}" for path, file in paths.items() for method in file)
 
 
 def test_the_index_leads_to_every_page_and_no_page_is_long() -> None:
@@ -64,43 +64,43 @@ def test_the_calls_print_what_stands_below_them(url: str, tmp_path: Path) -> Non
     ran = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, timeout=300, check=False)
     assert ran.returncode == 0, ran.stderr
     # headers end with CR LF, which is no difference
-    assert ran.stdout.split() == "".join(shown for _, shown in calls).split()
+    assert ran.stdout.split() == "".join(value for _, value in calls).split()
 
 
 def test_the_request_its_answer_and_the_infeasible_one() -> None:
-    request, shown, infeasible = blocks(PAGES["optimize"])
-    agrees(shown, optimize(OptimizeRequest.model_validate(request)).model_dump(mode="json"))
+    request, answer, infeasible = blocks(PAGES["optimize"])
+    agrees(answer, optimize(OptimizeRequest.model_validate(request)).model_dump(mode="json"))
     request["objective"]["force_ceiling_N"] = 300
-    found = optimize(OptimizeRequest.model_validate(request)).model_dump(mode="json")
+    fields = optimize(OptimizeRequest.model_validate(request)).model_dump(mode="json")
     infeasible["infeasibility"].pop("closest")  # abbreviated
-    agrees(infeasible, found)
+    agrees(infeasible, fields)
 
 
 def test_the_whole_turn() -> None:
-    request, shown, infeasible = blocks(PAGES["revolution"])
-    agrees(shown, optimize(OptimizeRequest.model_validate(request)).model_dump(mode="json"))
+    request, answer, infeasible = blocks(PAGES["revolution"])
+    agrees(answer, optimize(OptimizeRequest.model_validate(request)).model_dump(mode="json"))
     # analytic: an allowance is a share of the moment without counterweights, weighed by the span of 0.16 m
-    found = optimize(OptimizeRequest.model_validate({**request, "objective": {}}))
-    (external,) = shown["certificate"]["goals"]
-    moment = found.residual.before.moment.peak_Nm / 0.16
+    optimum = optimize(OptimizeRequest.model_validate({**request, "objective": {}}))
+    (external,) = answer["certificate"]["goals"]
+    moment = optimum.residual.before.moment.peak_Nm / 0.16
     assert external["limit"] - external["lower_bound"] == pytest.approx(0.01 * moment, abs=0.02)
     request["objective"]["bearing_ceiling_N"] = 1000
     agrees(infeasible, optimize(OptimizeRequest.model_validate(request)).model_dump(mode="json"))
 
 
 def test_the_balance_shafts() -> None:
-    request, shown = blocks(PAGES["balance-shafts"])
-    agrees(shown, optimize(OptimizeRequest.model_validate(request)).model_dump(mode="json"))
+    request, answer = blocks(PAGES["balance-shafts"])
+    agrees(answer, optimize(OptimizeRequest.model_validate(request)).model_dump(mode="json"))
 
 
 def test_scenarios_and_tolerances() -> None:
-    request, shown = blocks(PAGES["scenarios"])
-    agrees(shown, optimize(OptimizeRequest.model_validate(request)).model_dump(mode="json"))
+    request, answer = blocks(PAGES["scenarios"])
+    agrees(answer, optimize(OptimizeRequest.model_validate(request)).model_dump(mode="json"))
 
 
 def test_what_is_cut_from_a_plate() -> None:
-    request, shown = blocks(PAGES["plates"])
-    agrees(shown, optimize(OptimizeRequest.model_validate(request)).model_dump(mode="json"))
+    request, answer = blocks(PAGES["plates"])
+    agrees(answer, optimize(OptimizeRequest.model_validate(request)).model_dump(mode="json"))
 
 
 def test_what_a_shadow_price_promises() -> None:
@@ -121,46 +121,46 @@ def test_the_methods_of_the_certificate() -> None:
 
 
 def test_the_machine_with_gas() -> None:
-    _, request, shown = blocks(section("docs/api/analyze.md", "POST /v1/analyze"))
-    agrees(shown, analyze(AnalyzeRequest.model_validate(request)).model_dump(mode="json"))
+    _, request, value = blocks(section("docs/api/analyze.md", "POST /v1/analyze"))
+    agrees(value, analyze(AnalyzeRequest.model_validate(request)).model_dump(mode="json"))
 
 
 def test_the_front() -> None:
-    (shown,) = blocks(section("docs/api/studies.md", "POST /v1/pareto"))
+    (block,) = blocks(section("docs/api/studies.md", "POST /v1/pareto"))
     request = ParetoRequest.model_validate({**bodies("")["2d12"], "points": 3})
-    agrees(shown, pareto(request).model_dump(mode="json"))
+    agrees(block, pareto(request).model_dump(mode="json"))
 
 
 def test_the_rating() -> None:
-    request, shown = blocks(PAGES["rating"])
-    agrees(shown, rate(RatingRequest.model_validate(request)).model_dump(mode="json"))
+    request, answer = blocks(PAGES["rating"])
+    agrees(answer, rate(RatingRequest.model_validate(request)).model_dump(mode="json"))
 
 
 def test_the_matching() -> None:
-    request, shown = blocks(PAGES["match"])
-    agrees(shown, match(MatchRequest.model_validate(request)).model_dump(mode="json"))
+    request, answer = blocks(PAGES["match"])
+    agrees(answer, match(MatchRequest.model_validate(request)).model_dump(mode="json"))
 
 
 def test_the_rounding() -> None:
-    request, shown = blocks(PAGES["round"])
-    agrees(shown, round_weights(RoundRequest.model_validate(request)).model_dump(mode="json"))
+    request, answer = blocks(PAGES["round"])
+    agrees(answer, round_weights(RoundRequest.model_validate(request)).model_dump(mode="json"))
 
 
 def test_the_shaft() -> None:
     pages = blocks(PAGES["shaft"])
-    for request, shown in zip(pages[::2], pages[1::2], strict=True):
-        agrees(shown, read_shaft(ShaftRequest.model_validate(request)).model_dump(mode="json"))
+    for request, page in zip(pages[::2], pages[1::2], strict=True):
+        agrees(page, read_shaft(ShaftRequest.model_validate(request)).model_dump(mode="json"))
     table = PAGES["shaft"].split("| doubt |")[1].split("\n\n")[0]
     assert sorted(re.findall(r"`(\w+)`", table)) == sorted(get_args(DoubtCode))
 
 
 def test_the_effects() -> None:
-    (shown,) = blocks(section("docs/api/analyze.md", "GET /v1/effects"))
-    found = catalogue().model_dump(mode="json")
-    for key, entries in shown.items():
-        by_name = {one["name"]: one for one in found[key]}
-        for one in entries:
-            agrees(one, by_name[one["name"]])
+    (block,) = blocks(section("docs/api/analyze.md", "GET /v1/effects"))
+    fields = catalogue().model_dump(mode="json")
+    for key, entries in block.items():
+        by_name = {entry["name"]: entry for entry in fields[key]}
+        for record in entries:
+            agrees(record, by_name[record["name"]])
 
 
 def test_the_table_of_outputs_is_complete() -> None:

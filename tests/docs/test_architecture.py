@@ -18,8 +18,8 @@ PAGE = ROOT / "docs" / "architecture.md"
 @pytest.fixture(scope="module")
 def arrows() -> dict[str, frozenset[str]]:
     """Which room imports which; every file of the packages is parsed."""
-    found: dict[str, frozenset[str]] = room_map.imports()
-    return found
+    imports: dict[str, frozenset[str]] = room_map.imports()
+    return imports
 
 
 def test_the_rooms_are_drawn_from_the_imports(arrows: dict[str, frozenset[str]]) -> None:
@@ -40,8 +40,8 @@ def test_every_room_states_its_purpose(arrows: dict[str, frozenset[str]]) -> Non
 def test_a_sequence_is_as_drawn_and_goes_through_files_that_are_there(name: str) -> None:
     sequence = sequences.SEQUENCES[name]
     assert (ROOT / "docs" / f"{name}.svg").read_text() == sequences.picture(sequence), "run `make map`"
-    for one in sequence.participants:
-        assert one == sequences.CLIENT or (ROOT / one).exists(), one
+    for participant in sequence.participants:
+        assert participant == sequences.CLIENT or (ROOT / participant).exists(), participant
     # a participant speaks only after something has reached it; a coordinator begins by itself
     reached = {sequences.CLIENT, "service/jobs/coordinator.py"}
     for message in sequence.messages:

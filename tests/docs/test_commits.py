@@ -13,7 +13,7 @@ _SUBJECT = re.compile(r"[a-z0-9_./-]+(?:, [a-z0-9_./-]+)*: [a-z]\S* \S.*[^.\s]")
 
 def faults(subjects: list[str]) -> list[str]:
     """Those that are too long or name no area."""
-    return [one for one in subjects if len(one) > LONGEST or not _SUBJECT.fullmatch(one)]
+    return [subject for subject in subjects if len(subject) > LONGEST or not _SUBJECT.fullmatch(subject)]
 
 
 def test_the_last_commits() -> None:

@@ -265,11 +265,11 @@ _ADDED = ("An effect", "An output", "A computation", "A limit", "A response", "A
 
 @pytest.fixture(scope="module")
 def steps() -> list[re.Match[str]]:
-    told = "".join(section("CONTRIBUTING.md", heading) for heading in _ADDED)
-    found = list(_STEP.finditer(told))
+    text = "".join(section("CONTRIBUTING.md", heading) for heading in _ADDED)
+    matches = list(_STEP.finditer(text))
     # none of the blocks is passed over
-    assert len(found) == len(re.findall(r"^```\w+$", told, re.MULTILINE))
-    return found
+    assert len(matches) == len(re.findall(r"^```\w+$", text, re.MULTILINE))
+    return matches
 
 
 @pytest.fixture(scope="module")
@@ -278,11 +278,11 @@ def copy(steps: list[re.Match[str]], tmp_path_factory: pytest.TempPathFactory) -
     place = tmp_path_factory.mktemp("copy")
     # what other tests are writing at this moment has a name that is gone in the next
     passing = shutil.ignore_patterns("*.pyc.*", "*.tmp*")
-    for each in ROOT.iterdir():
-        if each.is_dir() and (not each.name.startswith(".") or each.name == ".ci"):
-            shutil.copytree(each, place / each.name, ignore=passing)
-        elif each.is_file():
-            shutil.copy(each, place)
+    for path in ROOT.iterdir():
+        if path.is_dir() and (not path.name.startswith(".") or path.name == ".ci"):
+            shutil.copytree(path, place / path.name, ignore=passing)
+        elif path.is_file():
+            shutil.copy(path, place)
     for step in steps:
         file, line, block = place / step["file"], step["line"], step["block"]
         if line is None:
@@ -298,7 +298,7 @@ def copy(steps: list[re.Match[str]], tmp_path_factory: pytest.TempPathFactory) -
     return place
 
 
-def _asked(copy: Path, script: str, *arguments: str) -> None:
+def _require_success(copy: Path, script: str, *arguments: str) -> None:
     """A script runs without a fault, in a process of its own that has the packages of the copy."""
     file = copy / "script.py"
     file.write_text(script)
@@ -323,39 +323,39 @@ def _run(copy: Path, *arguments: str, timeout_s: float = 900.0) -> str:
 
 @pytest.mark.parametrize("heading", _ADDED)
 def test_it_takes_as_many_files_as_it_says(heading: str) -> None:
-    told = section("CONTRIBUTING.md", heading)
-    files = {step["file"] for step in _STEP.finditer(told)}
-    assert told.lstrip().startswith(f"{_NUMBERS[len(files) - 1]} files")
+    actual_section = section("CONTRIBUTING.md", heading)
+    files = {step["file"] for step in _STEP.finditer(actual_section)}
+    assert actual_section.lstrip().startswith(f"{_NUMBERS[len(files) - 1]} files")
 
 
 def test_effect_output_computation_and_limit_are_answered_swept_and_reported(copy: Path, tmp_path: Path) -> None:
-    _asked(copy, _SCRIPT + _COMPUTED + _LIMITED, str(tmp_path))
+    _require_success(copy, _SCRIPT + _COMPUTED + _LIMITED, str(tmp_path))
 
 
 def test_response_is_weighed_limited_traded_swept_reported_and_checked(copy: Path) -> None:
-    _asked(copy, _RESPONDED)
+    _require_success(copy, _RESPONDED)
 
 
 def test_case_is_solved_chosen_limited_reported_refused_and_checked(copy: Path) -> None:
-    _asked(copy, (RECIPES / "case.py").read_text())
+    _require_success(copy, (RECIPES / "case.py").read_text())
 
 
 def test_kind_of_choice_goes_with_goals_limits_groups_and_studies(copy: Path) -> None:
-    _asked(copy, (RECIPES / "choice.py").read_text())
+    _require_success(copy, (RECIPES / "choice.py").read_text())
 
 
 def test_the_output_is_shown_by_a_terminal(copy: Path) -> None:
-    shown = run("service", "analyze", "examples/2d12.json", "--output", "obliquity", root=copy).stdout
-    assert "Lean of the rods" in shown
-    assert re.search(r"largest angle of any rod, deg\W+\d", shown)
+    stdout = run("service", "analyze", "examples/2d12.json", "--output", "obliquity", root=copy).stdout
+    assert "Lean of the rods" in stdout
+    assert re.search(r"largest angle of any rod, deg\W+\d", stdout)
 
 
 def test_the_computation_is_a_command(copy: Path, tmp_path: Path) -> None:
     body = tmp_path / "body.json"
     body.write_text('{"stroke_m": "280 mm", "speed_rpm": 500}')
-    shown = run("service", "piston-speed", str(body), root=copy).stdout
+    stdout = run("service", "piston-speed", str(body), root=copy).stdout
     # analytic: two strokes in a turn
-    assert re.search(r"mean, m/s\W+4\.6", shown)
+    assert re.search(r"mean, m/s\W+4\.6", stdout)
 
 
 def test_all_is_written_as_the_linter_wants_it(copy: Path) -> None:
@@ -370,9 +370,9 @@ def test_all_keeps_to_the_layers(copy: Path) -> None:
 @pytest.mark.nightly
 def test_all_is_typed(copy: Path) -> None:
     # half a minute of CPU where nothing is known of the packages yet: pytest tests/docs/test_contributing.py -m nightly
-    known = ROOT / ".mypy_cache"
-    if known.exists():
-        shutil.copytree(known, copy / ".mypy_cache")
+    root = ROOT / ".mypy_cache"
+    if root.exists():
+        shutil.copytree(root, copy / ".mypy_cache")
     _run(copy, "-m", "mypy", *_PACKAGES)
 
 

@@ -18,8 +18,8 @@ _LISTED = re.compile(r"^ +(\*{0,2}\w+, )*\*{0,2}\w+ : ", re.MULTILINE)
 
 def parameters(node: ast.FunctionDef | ast.AsyncFunctionDef) -> set[str]:
     every = node.args
-    extra = [each for each in (every.vararg, every.kwarg) if each is not None]
-    return {each.arg for each in [*every.posonlyargs, *every.args, *every.kwonlyargs, *extra]}
+    extra = [arg for arg in (every.vararg, every.kwarg) if arg is not None]
+    return {arg.arg for arg in [*every.posonlyargs, *every.args, *every.kwonlyargs, *extra]}
 
 
 def fields(node: ast.ClassDef) -> set[str]:

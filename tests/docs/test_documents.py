@@ -40,8 +40,8 @@ def readme() -> str:
 
 
 def test_the_answer_in_the_readme() -> None:
-    (shown,) = blocks(readme())
-    agrees(shown, optimize(OptimizeRequest.model_validate(bodies("")["2d12"])).model_dump(mode="json"))
+    (block,) = blocks(readme())
+    agrees(block, optimize(OptimizeRequest.model_validate(bodies("")["2d12"])).model_dump(mode="json"))
 
 
 def test_the_call_in_the_readme(url: str) -> None:
@@ -78,8 +78,8 @@ def _follow(place: Path, monkeypatch: pytest.MonkeyPatch, commands: list[list[st
     monkeypatch.chdir(place)
     assert len(commands) > 10
     for words in commands:
-        given, into = (words[:-2], words[-1]) if words[-2:-1] == [">"] else (words, None)
-        ran = CliRunner().invoke(app, given)
+        texts, into = (words[:-2], words[-1]) if words[-2:-1] == [">"] else (words, None)
+        ran = CliRunner().invoke(app, texts)
         assert ran.exit_code == 0, f"{words}\n{ran.stdout}{ran.stderr}{ran.exception}"
         if into is not None:
             (place / into).write_text(ran.stdout)
@@ -106,13 +106,13 @@ def test_the_front_of_the_2d12() -> None:
     rows = re.findall(r"^\| *(\d*) \| ([\d.]+) \| ([\d.]+) \| ([\d.]+) \|$", document("docs/pareto.md"), re.MULTILINE)
     budgets = [float(budget) for budget, *_ in rows if budget]
     request = {**bodies("")["2d12"], "points": 5, "total_mass_budgets_kg": budgets}
-    found = pareto(ParetoRequest.model_validate(request))
-    (shown_point,) = blocks(document("docs/pareto.md"))
-    agrees(shown_point, found.fronts[-1].points[2].model_dump(mode="json"))
-    points = [point for front in found.fronts for point in front.points]
-    for (_, *shown), point in zip(rows, points, strict=True):
+    answer = pareto(ParetoRequest.model_validate(request))
+    (block,) = blocks(document("docs/pareto.md"))
+    agrees(block, answer.fronts[-1].points[2].model_dump(mode="json"))
+    points = [point for front in answer.fronts for point in front.points]
+    for (_, *value), point in zip(rows, points, strict=True):
         figures = (point.force_peak_N, point.moment_peak_Nm, point.total_mass_kg)
-        for text, figure in zip(shown, figures, strict=True):
+        for text, figure in zip(value, figures, strict=True):
             assert figure == pytest.approx(float(text), rel=0, abs=10.0 ** -len(text.partition(".")[2])), text
 
 
@@ -121,7 +121,7 @@ def test_an_engine_whose_masses_are_off() -> None:
     text = document("docs/tolerances.md")
     rows = re.findall(r"^\| *(\d+) \| ([\d.]+) \| ([\d.]+) \| ([\d.]+) \|$", text, re.MULTILINE)
     assert len(rows) == 4
-    (shown,) = blocks(text)
+    (block,) = blocks(text)
     for percent, *figures in rows:
         body = bodies("")["inline-four-engine"] | {
             "objective": {"force_weight": 0, "moment_weight": 0, "bearing_weight": 1},
@@ -132,11 +132,11 @@ def test_an_engine_whose_masses_are_off() -> None:
         assert answer.worst_case is not None
         price = answer.price_of_robustness
         assert price is not None
-        found = (answer.worst_case.bearing_peak_N, price.nominal_optimum_worst_case, price.nominal)
+        entry = (answer.worst_case.bearing_peak_N, price.nominal_optimum_worst_case, price.nominal)
         # optima may differ by a millionth of what is there without counterweights, and what is bought with it by more
-        assert found == pytest.approx([float(figure) for figure in figures], rel=1e-4)
+        assert entry == pytest.approx([float(figure) for figure in figures], rel=1e-4)
         if percent == "2":
-            agrees(shown, answer.model_dump(mode="json"))
+            agrees(block, answer.model_dump(mode="json"))
 
 
 @pytest.mark.parametrize("name", DOCUMENTS)
@@ -155,24 +155,24 @@ def test_commands_are_there(name: str) -> None:
 def test_every_long_command_of_the_tests_is_run_at_night() -> None:
     """Those that can be started by themselves and print what they found; the others serve, or write a record."""
     (listed,) = re.findall(r"^long := ((?:.*\\\n)*.*)", document("Makefile"), re.MULTILINE)
-    found = {
+    texts = {
         ".".join(path.relative_to(ROOT).with_suffix("").parts)
         for folder in ("choices", "hard", "hard_effects", "jobs", "network", "verification")
         for path in (ROOT / "tests" / folder).glob("*.py")
         if 'if __name__ == "__main__"' in path.read_text() and not path.name.startswith(("test_", "__"))
     }
-    others = {"tests.jobs.serving", "tests.jobs.held", "tests.network.limited", "tests.verification.recorded"}
-    assert set(listed.replace("\\", "").split()) == found - others
+    lines = {"tests.jobs.serving", "tests.jobs.held", "tests.network.limited", "tests.verification.recorded"}
+    assert set(listed.replace("\\", "").split()) == texts - lines
 
 
 def test_the_mathematics_names_files_that_are_there() -> None:
     """With their path, or beside the last file that had one."""
-    known = {path.name for path in (ROOT / "optimizer").rglob("*.py")}
+    names = {path.name for path in (ROOT / "optimizer").rglob("*.py")}
     chapters = sorted((ROOT / "docs" / "mathematics").glob("*.md"))
     assert len(chapters) > 5
     for name in re.findall(r"`([\w/]+\.py)`", "\n".join(path.read_text() for path in chapters)):
         places = [ROOT, ROOT / "optimizer"]
-        assert any((place / name).exists() for place in places) or ("/" not in name and name in known), name
+        assert any((place / name).exists() for place in places) or ("/" not in name and name in names), name
 
 
 #: of a text, what it tells to install from a package index: up to the end of the line, of a string or of code
@@ -187,9 +187,9 @@ def test_nothing_is_installed_by_a_name_that_is_not_ours() -> None:
     texts = {
         path: path.read_text("utf-8") for path in [*files, ROOT / "README.md", ROOT / "Makefile"] if path.is_file()
     }
-    told = [(path, line) for path, text in texts.items() for line in _INSTALLED.findall(text)]
-    assert len(told) > 5
-    for path, line in told:
+    values = [(path, line) for path, text in texts.items() for line in _INSTALLED.findall(text)]
+    assert len(values) > 5
+    for path, line in values:
         assert not re.search(r"(^|[ '\"])counterweight([ '\"\[=<>~!]|$)", line), (path, line)
     # nor is an extra named by it
     assert [path for path, text in texts.items() if re.search(r"\bcounterweight\[[a-z]", text)] == []

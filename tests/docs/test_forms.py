@@ -8,8 +8,8 @@ from tests.docs.reading import agrees, blocks, document
 
 def test_the_fields_shown_are_those_of_the_schema() -> None:
     definitions: dict[str, Any] = OptimizeRequest.model_json_schema()["$defs"]
-    (shown,) = blocks(document("docs/api/forms.md"))
+    (block,) = blocks(document("docs/api/forms.md"))
     models = {"crank_radius_m": "Throw", "diameter_m": "Bearing", "hole_angles_deg": "Web", "sector": "Web"}
-    agrees(shown, {name: definitions[model]["properties"][name] for name, model in models.items()})
-    assert set(shown) == set(models)
+    agrees(block, {name: definitions[model]["properties"][name] for name, model in models.items()})
+    assert set(block) == set(models)
     assert definitions["Web"]["then"] == {"required": ["counterweight_radius_m", "max_mass_kg"]}

@@ -30,16 +30,16 @@ def steps(path: Path) -> list[tuple[str, str]]:
     return _STEP.findall(path.read_text())
 
 
-def says(line: str, shown: str) -> bool:
+def says(line: str, text: str) -> bool:
     """Whether a line of output holds what is shown, word by word, but for borders of tables and last digits."""
-    found, wanted = (re.sub(r"[│┃|]", " ", text).split() for text in (line, shown))
-    return any(all(map(_same, found[start:], wanted)) for start in range(len(found) - len(wanted) + 1))
+    parts, actual_parts = (re.sub(r"[│┃|]", " ", text).split() for text in (line, text))
+    return any(all(map(_same, parts[start:], actual_parts)) for start in range(len(parts) - len(actual_parts) + 1))
 
 
-def _same(one: str, other: str) -> bool:
-    if _NUMBER.fullmatch(one) and _NUMBER.fullmatch(other):
-        return float(one) == pytest.approx(float(other), rel=_CLOSE)
-    return other in one
+def _same(first: str, second: str) -> bool:
+    if _NUMBER.fullmatch(first) and _NUMBER.fullmatch(second):
+        return float(first) == pytest.approx(float(second), rel=_CLOSE)
+    return second in first
 
 
 @pytest.mark.parametrize("path", GUIDES, ids=lambda path: f"{path.parent.name}/{path.stem}")
@@ -61,11 +61,11 @@ def test_a_guide_is_followed(path: Path, url: str, tmp_path: Path, tmp_path_fact
             check=False,
         )
     assert ran.returncode == 0, ran.stdout
-    for (code, shown), output in zip(followed, ran.stdout.split(_MARK), strict=False):
+    for (code, text), output in zip(followed, ran.stdout.split(_MARK), strict=False):
         lines = iter(output.splitlines())
-        for wanted in shown.splitlines():
-            assert any(says(line, wanted) for line in lines), (
-                f"{wanted}\nis not in order in what came of\n{code}{output}"
+        for text_line in text.splitlines():
+            assert any(says(line, text_line) for line in lines), (
+                f"{text_line}\nis not in order in what came of\n{code}{output}"
             )
 
 
@@ -85,11 +85,11 @@ def test_every_kind_of_page_is_there() -> None:
 def test_the_pictures_show_the_machines_of_today(name: str) -> None:
     """Names and planes; positions are those of one machine to its last digits."""
     request = OptimizeRequest.model_validate(bodies("")[name])
-    shown, drawn = (
+    matches, drawn = (
         re.findall(r"<text[^>]*>([^<]*)", text)
         for text in ((ROOT / "docs" / f"{name}-side.svg").read_text(), pictures.svg(pictures.side(request)).decode())
     )
-    assert shown == drawn
+    assert matches == drawn
     assert any(f"({name}-side.svg)".replace("(", "(../") in path.read_text() for path in GUIDES)
 
 

@@ -22,13 +22,13 @@ TEXT = (ROOT / "docs" / "python.md").read_text()
 
 def test_the_examples_print_what_stands_below_them() -> None:
     names: dict[str, Any] = {}
-    shown = re.findall(r"```python\n(.*?)```\n\n```text\n(.*?)```", TEXT, re.DOTALL)
-    assert len(shown) == TEXT.count("```python")
-    for code, said in shown:
+    matches = re.findall(r"```python\n(.*?)```\n\n```text\n(.*?)```", TEXT, re.DOTALL)
+    assert len(matches) == TEXT.count("```python")
+    for code, value in matches:
         printed = io.StringIO()
         with contextlib.redirect_stdout(printed):
             exec(code, names)
-        assert printed.getvalue() == said
+        assert printed.getvalue() == value
 
 
 def test_the_public_names() -> None:
@@ -74,9 +74,9 @@ def test_the_public_names() -> None:
 @pytest.mark.parametrize("package", [optimizer, schemas], ids=lambda package: package.__name__)
 def test_every_public_name_is_there_whatever_was_loaded_before(package: Any) -> None:
     for name in package.__all__:
-        found = getattr(package, name)
-        assert found.__name__ == name
-        assert found.__doc__
+        value = getattr(package, name)
+        assert value.__name__ == name
+        assert value.__doc__
     # files of the same name do not hide the functions, and are still files
     assert optimizer.optimize is optimize
     assert import_module("optimizer.optimize").optimize is optimize
@@ -107,10 +107,10 @@ def test_the_first_function_loads_neither_compiler_nor_sparse_matrices() -> None
 
 def test_an_answer_shows_itself_in_a_notebook() -> None:
     answer = optimize(OptimizeRequest.model_validate(bodies("")["2d12"]))
-    shown = answer._repr_html_()
-    assert shown.count("<table>") == shown.count("</table>") > 5
+    words = answer._repr_html_()
+    assert words.count("<table>") == words.count("</table>") > 5
     for text in ("<th>status</th><td>optimal</td>", "<th>lower_bound</th>", "<td>1a</td><td>60</td><td>180</td>"):
-        assert text in shown
+        assert text in words
     # what is null is left out, and texts are no HTML
-    assert "None" not in shown
+    assert "None" not in words
     assert "&lt;b&gt;" in answer.model_copy(update={"status_reason": "<b>"})._repr_html_()

@@ -13,25 +13,25 @@ from schemas.request.requests import OptimizeRequest
 from tests.docs.reading import ROOT
 
 
-def _leaves(shown: Any, answer: Any, place: str = "") -> Iterator[tuple[str, Any, Any]]:
+def _leaves(subject: Any, answer: Any, place: str = "") -> Iterator[tuple[str, Any, Any]]:
     """What is shown, beside what is answered there; a shortened answer leaves fields out, but no entries."""
-    if isinstance(shown, dict):
-        for name, value in shown.items():
+    if isinstance(subject, dict):
+        for name, value in subject.items():
             yield from _leaves(value, answer[name], f"{place}/{name}")
-    elif isinstance(shown, list):
-        assert len(shown) == len(answer), place
-        for k, (value, other) in enumerate(zip(shown, answer, strict=True)):
-            yield from _leaves(value, other, f"{place}/{k}")
+    elif isinstance(subject, list):
+        assert len(subject) == len(answer), place
+        for k, (value, number) in enumerate(zip(subject, answer, strict=True)):
+            yield from _leaves(value, number, f"{place}/{k}")
     else:
-        yield place, shown, answer
+        yield place, subject, answer
 
 
 def test_the_answer_shown_is_that_of_today() -> None:
     blocks = re.findall(r"```json\n(.*?)```", (ROOT / "README.md").read_text(), re.DOTALL)
-    shown = next(block for block in map(json.loads, blocks) if "counterweights" in block)
+    section = next(block for block in map(json.loads, blocks) if "counterweights" in block)
     request = OptimizeRequest.model_validate_json((ROOT / "examples" / "2d12.json").read_text())
     answer = json.loads(optimize(request).model_dump_json())
-    leaves = list(_leaves(shown, answer))
+    leaves = list(_leaves(section, answer))
     assert len(leaves) > 30
     for place, value, today in leaves:
         if place.endswith("relative_gap"):

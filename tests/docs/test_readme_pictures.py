@@ -22,8 +22,8 @@ def _size(path: Path) -> tuple[int, int]:
 
 
 def test_the_readme_shows_what_the_command_draws() -> None:
-    shown = re.findall(r"!\[[^]]+\]\(docs/([^)]+)\)", (ROOT / "README.md").read_text())
-    assert shown == [readme_pictures.PAGE, readme_pictures.REPORT, readme_pictures.FRONT]
+    matches = re.findall(r"!\[[^]]+\]\(docs/([^)]+)\)", (ROOT / "README.md").read_text())
+    assert matches == [readme_pictures.PAGE, readme_pictures.REPORT, readme_pictures.FRONT]
     assert _size(readme_pictures.DOCS / readme_pictures.PAGE) == (1280, 900)
     assert _size(readme_pictures.DOCS / readme_pictures.REPORT) == tuple(readme_pictures.SHEET.values())
 

@@ -62,8 +62,10 @@ def test_links_lead_to_a_page_and_a_place_on_it(site: Path, pages: dict[Path, _P
                 continue
             target = (path.parent / unquote(address.path)).resolve() if address.path else path
             target = target / "index.html" if target.is_dir() else target
-            known = pages[target].anchors if target in pages else set()
-            if not target.exists() or (address.fragment and target in pages and unquote(address.fragment) not in known):
+            anchors = pages[target].anchors if target in pages else set()
+            if not target.exists() or (
+                address.fragment and target in pages and unquote(address.fragment) not in anchors
+            ):
                 broken.append((path.relative_to(site), link))
     assert broken == []
     assert sum(len(page.links) for page in pages.values()) > 1000
@@ -72,8 +74,8 @@ def test_links_lead_to_a_page_and_a_place_on_it(site: Path, pages: dict[Path, _P
 def test_nothing_is_loaded_from_elsewhere(pages: dict[Path, _Page]) -> None:
     for path, page in pages.items():
         assert page.loaded, path
-        for one in page.loaded:
-            assert not urlsplit(one).netloc, (path, one)
+        for text in page.loaded:
+            assert not urlsplit(text).netloc, (path, text)
 
 
 def test_an_unknown_path_is_a_page_with_a_search(site: Path) -> None:
@@ -90,6 +92,6 @@ def test_every_document_is_in_the_navigation_but_single_decisions() -> None:
     listed = set(re.findall(r"[\w./-]+\.md", CONFIGURATION.read_text().split("\nnav:")[1]))
     documents = {str(path.relative_to(ROOT / "docs")) for path in (ROOT / "docs").rglob("*.md")}
     assert listed - {"index.md", "CHANGELOG.md", "CONTRIBUTING.md"} == {
-        one for one in documents if not re.match(r"decisions/\d", one)
+        document for document in documents if not re.match(r"decisions/\d", document)
     }
     assert re.search(r"^  font: false$", CONFIGURATION.read_text(), re.MULTILINE)

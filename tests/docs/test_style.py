@@ -25,17 +25,17 @@ def test_sentences_are_counted_as_people_count_them() -> None:
         "* An item\n  over two lines.\n* Another.\n\n```sh\nno prose here\n```\n\n    nor here\n\n"
         "| label | a cell with more than eight words is prose too |\n"
     )
-    found = sentences(counted)
-    assert [len(one.split()) for one in found] == [2, 7, 5, 1, 10]
-    assert lengths(found) == (5, 5.0, 10.0)
-    assert lengths(found).within_limits
+    actual_sentences = sentences(counted)
+    assert [len(actual_sentence.split()) for actual_sentence in actual_sentences] == [2, 7, 5, 1, 10]
+    assert lengths(actual_sentences) == (5, 5.0, 10.0)
+    assert lengths(actual_sentences).within_limits
     assert not lengths([" ".join(["word"] * 40)]).within_limits
     assert lengths([]).sentences == 0
 
 
 def test_names_in_code_are_no_words() -> None:
     assert discouraged("`yardstick` and `least_mass`, in turn") == []
-    found = discouraged("The yardstick over a turn\nof the least\nmass.")
-    assert [word for word, _ in found] == ["yardstick", "a turn", "least mass"]
+    values = discouraged("The yardstick over a turn\nof the least\nmass.")
+    assert [word for word, _ in values] == ["yardstick", "a turn", "least mass"]
     assert "yardstick" not in prose("a `yardstick`")
     assert all(better for better in DISCOURAGED.values())

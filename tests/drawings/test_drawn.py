@@ -28,8 +28,8 @@ EXAMPLE = Path("examples/drawings/2d12-plates.json")
 
 
 def body() -> dict[str, Any]:
-    found: dict[str, Any] = json.loads(EXAMPLE.read_text())
-    return found
+    document: dict[str, Any] = json.loads(EXAMPLE.read_text())
+    return document
 
 
 def drawn(request: Mapping[str, Any]) -> dict[str, bytes]:
@@ -43,14 +43,14 @@ def bill(files: Mapping[str, bytes]) -> list[dict[str, str]]:
 
 
 def test_the_solids_weigh_what_the_answer_says() -> None:
-    asked = body()
-    answer, files = optimize(OptimizeRequest.model_validate(asked)), drawn(asked)
+    payload = body()
+    answer, files = optimize(OptimizeRequest.model_validate(payload)), drawn(payload)
     volumes = File(files["counterweights.step"]).volumes()
     # independent: volumes by the divergence theorem, of steel
-    masses = [one.mass_kg for one in answer.counterweights]
+    masses = [counterweight.mass_kg for counterweight in answer.counterweights]
     assert [volume * 1e-9 * 7850 for volume in volumes] == pytest.approx(masses, rel=1e-9)
     assert list(names(File(files["counterweights.step"]).products())) == [
-        f"Counterweight {one.web}" for one in answer.counterweights
+        f"Counterweight {counterweight.web}" for counterweight in answer.counterweights
     ]
     assert sum(float(row["mass, kg"]) for row in bill(files)) == pytest.approx(answer.total_mass_kg, rel=1e-12)
 
@@ -68,11 +68,11 @@ def test_given_counterweights_are_drawn_and_equal_ones_are_one_part() -> None:
 
 
 def test_a_counterweight_without_a_plate_is_in_the_bill_and_said_not_to_be_drawn() -> None:
-    asked = body()
-    web = asked["machine"]["webs"][0]
+    payload = body()
+    web = payload["machine"]["webs"][0]
     del web["envelope"]
-    files = drawn({**asked, "machine": {**asked["machine"], "webs": [
-        {**web, "counterweight_radius_m": 0.25, "max_mass_kg": 30}, *asked["machine"]["webs"][1:]
+    files = drawn({**payload, "machine": {**payload["machine"], "webs": [
+        {**web, "counterweight_radius_m": 0.25, "max_mass_kg": 30}, *payload["machine"]["webs"][1:]
     ]}})  # fmt: skip
     (plain,) = [row for row in bill(files) if row["web"] == "1a"]
     assert (plain["part"], plain["drawing"]) == ("", "none: the web has no envelope")
@@ -111,32 +111,32 @@ def test_what_a_spreadsheet_would_run_is_text(text: str, cell: str) -> None:
 
 
 def test_the_workbook_says_what_the_csv_says_and_runs_nothing() -> None:
-    asked = body()
-    asked["machine"]["webs"][0]["name"] = "=1+1"
-    files = drawn({**asked, "counterweights": [{"web": "=1+1", "mass_kg": 30.0, "angle_deg": 180}]})
+    payload = body()
+    payload["machine"]["webs"][0]["name"] = "=1+1"
+    files = drawn({**payload, "counterweights": [{"web": "=1+1", "mass_kg": 30.0, "angle_deg": 180}]})
     sheet = openpyxl.load_workbook(io.BytesIO(files["bill-of-material.xlsx"])).active
-    heads, (one,) = [cell.value for cell in sheet[1]], list(sheet.iter_rows(min_row=2))
+    heads, (line,) = [cell.value for cell in sheet[1]], list(sheet.iter_rows(min_row=2))
     assert tuple(heads) == HEADS
-    assert (one[2].value, one[2].data_type) == ("=1+1", "s")
+    assert (line[2].value, line[2].data_type) == ("=1+1", "s")
     (row,) = bill(files)
     assert row["web"] == "'=1+1"
-    for head, cell in zip(heads, one, strict=True):
+    for head, cell in zip(heads, line, strict=True):
         if isinstance(cell.value, float | int):
             # the library writes 16 digits
             assert cell.value == pytest.approx(float(row[head]), rel=1e-14)
 
 
 def test_the_same_request_gives_the_same_bytes() -> None:
-    asked = {**body(), "counterweights": [{"web": "1a", "mass_kg": 30.0, "angle_deg": 180}]}
-    one, other = drawn(asked), drawn(asked)
+    payload = {**body(), "counterweights": [{"web": "1a", "mass_kg": 30.0, "angle_deg": 180}]}
+    drawing, second_drawing = drawn(payload), drawn(payload)
     # the library writes the time into a workbook
-    assert {**one, "bill-of-material.xlsx": b""} == {**other, "bill-of-material.xlsx": b""}
+    assert {**drawing, "bill-of-material.xlsx": b""} == {**second_drawing, "bill-of-material.xlsx": b""}
 
 
 def test_where_a_counterweight_sits() -> None:
     # analytic: half a disc of steel at 90 degrees stands upwards, from one face of its plate to the other
-    asked = body()
-    asked["machine"]["webs"] = [
+    payload = body()
+    payload["machine"]["webs"] = [
         {
             "name": "w",
             "position_m": 0.2,
@@ -144,10 +144,10 @@ def test_where_a_counterweight_sits() -> None:
         }
     ]
     whole = 0.5 * radians(180) * 0.1**2 * 0.05 * 7850
-    files = drawn({**asked, "counterweights": [{"web": "w", "mass_kg": whole, "angle_deg": 90}]})
+    files = drawn({**payload, "counterweights": [{"web": "w", "mass_kg": whole, "angle_deg": 90}]})
     text = files["counterweights.step"].decode()
     points = [
-        [float(each) for each in line.split("(", 2)[2].rstrip(");").split(",")]
+        [float(part) for part in line.split("(", 2)[2].rstrip(");").split(",")]
         for line in text.splitlines()
         if "CARTESIAN_POINT" in line
     ]
@@ -172,14 +172,14 @@ def test_what_cannot_be_drawn_is_said(change: dict[str, Any], path: tuple[str | 
 def test_the_command(tmp_path: Path) -> None:
     run, answer, to = CliRunner(), tmp_path / "answer.json", tmp_path / "drawings.zip"
     answer.write_text(run.invoke(app, ["optimize", str(EXAMPLE), "--json"]).stdout)
-    done = run.invoke(app, ["draw", str(EXAMPLE), "--answer", str(answer), "--to", str(to)])
-    assert done.exit_code == 0, done.output
+    process = run.invoke(app, ["draw", str(EXAMPLE), "--answer", str(answer), "--to", str(to)])
+    assert process.exit_code == 0, process.output
     with ZipFile(to) as archive:
         assert "counterweight-1.dxf" in archive.namelist()
-    for wrong, said in (
+    for wrong, text in (
         (["draw", "examples/2d12.json", "--to", str(to)], "/machine/webs: a drawing needs the envelope of a web"),
         (["draw", str(EXAMPLE), "--answer", str(EXAMPLE), "--to", str(to)], "is not the answer"),
         (["draw", str(EXAMPLE), "--to", str(tmp_path)], "cannot write"),
     ):
         refused = run.invoke(app, wrong)
-        assert (refused.exit_code, said in refused.stderr) == (2, True), refused.output
+        assert (refused.exit_code, text in refused.stderr) == (2, True), refused.output

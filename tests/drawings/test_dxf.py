@@ -24,16 +24,16 @@ def test_what_is_read_back_is_the_outline(plate: Envelope, half_angle: float) ->
     document = read(dxf(edges))
     assert document.acad_release == "R12"
     assert not document.audit().has_errors
-    found = [entity for entity in document.modelspace() if entity.dxf.layer == "OUTLINE"]
-    assert len(found) == len(edges)
-    for entity, edge in zip(found, edges, strict=True):
+    entities = [entity for entity in document.modelspace() if entity.dxf.layer == "OUTLINE"]
+    assert len(entities) == len(edges)
+    for entity, edge in zip(entities, edges, strict=True):
         if isinstance(edge, Arc):
             angles = sorted((degrees(edge.first), degrees(edge.last)))
             assert [entity.dxf.start_angle, entity.dxf.end_angle] == pytest.approx(angles, abs=1e-11)
             assert entity.dxf.radius == pytest.approx(1e3 * edge.radius, abs=1e-11)
         else:
             ends = (*entity.dxf.start, *entity.dxf.end)
-            assert ends == pytest.approx([1e3 * each for each in (*edge.start, 0.0, *edge.end, 0.0)], abs=1e-11)
+            assert ends == pytest.approx([1e3 * value for value in (*edge.start, 0.0, *edge.end, 0.0)], abs=1e-11)
 
 
 def test_the_shaft_is_marked_on_a_layer_of_its_own() -> None:

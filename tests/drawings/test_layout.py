@@ -27,14 +27,14 @@ def machine(*throws: Any, **more: Any) -> dict[str, Any]:
 
 
 def reasons(typed: dict[str, Any]) -> dict[str, str]:
-    return {"/".join(map(str, one.path[1:])): one.message for one in partial_layout(typed)[1]}
+    return {"/".join(map(str, problem.path[1:])): problem.message for problem in partial_layout(typed)[1]}
 
 
 @pytest.mark.parametrize("name", EXAMPLES)
 def test_whole_machines_are_known_whole(name: str) -> None:
-    found, why = partial_layout({**NOTHING, "machine": EXAMPLES[name]})
+    layout, why = partial_layout({**NOTHING, "machine": EXAMPLES[name]})
     assert why == []
-    assert found == layout_of(OptimizeRequest.model_validate({"machine": EXAMPLES[name]}).machine, ())
+    assert layout == layout_of(OptimizeRequest.model_validate({"machine": EXAMPLES[name]}).machine, ())
 
 
 @pytest.mark.parametrize("name", ["2d12", "single-vertical", "scroll-three-pins", "scroll-oldham"])
@@ -47,11 +47,11 @@ def test_the_plane_of_moments_is_that_of_the_answer(name: str, plane: float | No
 
 def test_a_part_that_lacks_something_is_left_out_and_named() -> None:
     typed = machine(THROW, {"position_m": 0.3, "crank_radius_m": "wide"}, "x")
-    found, _ = partial_layout(typed)
-    assert found is not None
-    assert isinstance(found.machine, CrankMachine)
+    layout, _ = partial_layout(typed)
+    assert layout is not None
+    assert isinstance(layout.machine, CrankMachine)
     # places keep their numbers
-    assert [name for name, _ in found.machine.cranks] == ["1"]
+    assert [name for name, _ in layout.machine.cranks] == ["1"]
     assert reasons(typed) == {
         "throws/1/crank_radius_m": "must be a number in m, or a string such as '1.5 m'",
         "throws/1/crank_angle_deg": MISSING,
@@ -77,11 +77,11 @@ def test_a_balance_shaft_that_is_half_typed_is_left_out_and_named() -> None:
 def test_what_may_be_missing_goes_alone() -> None:
     web = {"name": "a", "position_m": 0, "counterweight_radius_m": "?", "sector": {"centre_deg": 90}}
     typed = machine({**THROW, "rows": [{"axis_deg": "up"}, {"axis_deg": 90}]}, webs=[web], rotation="left")
-    found, _ = partial_layout(typed)
-    assert found is not None
-    assert isinstance(found.machine, CrankMachine)
-    assert [row and row.axis_deg for row in found.machine.cranks[0][1].rows] == [None, 90]
-    assert (found.machine.places[0].sector, found.machine.places[0].reach_m) == (None, None)
+    layout, _ = partial_layout(typed)
+    assert layout is not None
+    assert isinstance(layout.machine, CrankMachine)
+    assert [row and row.axis_deg for row in layout.machine.cranks[0][1].rows] == [None, 90]
+    assert (layout.machine.places[0].sector, layout.machine.places[0].reach_m) == (None, None)
     assert set(reasons(typed)) == {
         "throws/0/rows/0/axis_deg",
         "webs/0/counterweight_radius_m",
@@ -101,9 +101,9 @@ def test_what_may_be_missing_goes_alone() -> None:
     ],
 )
 def test_nothing_is_drawn_where_nothing_is_known(typed: Any, why: dict[str, str]) -> None:
-    found = views(LayoutRequest(machine=typed))
-    assert (found.front, found.side) == (None, None)
-    assert {one.pointer.removeprefix("/machine/"): one.message for one in found.missing} == why
+    answer = views(LayoutRequest(machine=typed))
+    assert (answer.front, answer.side) == (None, None)
+    assert {error.pointer.removeprefix("/machine/"): error.message for error in answer.missing} == why
 
 
 def test_weights_are_seen_where_they_have_mass_radius_and_web() -> None:
@@ -111,11 +111,13 @@ def test_weights_are_seen_where_they_have_mass_radius_and_web() -> None:
     weights = [{"web": name, "mass_kg": mass, "angle_deg": 0} for name, mass in (("a", 60), ("b", 1e-5), ("c", 0))]
     elsewhere = {"web": "of a balance shaft", "mass_kg": 3, "angle_deg": 0, "radius_m": 0.1}
     fitted = [{"web": "b", "mass_kg": "2 kg", "angle_deg": 5, "radius_m": "300 mm"}]
-    found, why = partial_layout(machine(THROW, webs=webs) | {"counterweights": [*weights, elsewhere], "fitted": fitted})
-    assert found is not None
+    layout, why = partial_layout(
+        machine(THROW, webs=webs) | {"counterweights": [*weights, elsewhere], "fitted": fitted}
+    )
+    assert layout is not None
     assert why == []
-    assert [(one.web.name, one.radius_m) for one in found.best] == [("a", 0.2)]
-    assert [(one.web.name, one.mass_kg, one.radius_m) for one in found.built] == [("b", 2.0, 0.3)]
+    assert [(fitting.web.name, fitting.radius_m) for fitting in layout.best] == [("a", 0.2)]
+    assert [(fitting.web.name, fitting.mass_kg, fitting.radius_m) for fitting in layout.built] == [("b", 2.0, 0.3)]
 
 
 def test_a_machine_is_no_larger_than_the_service_takes() -> None:
@@ -129,9 +131,9 @@ def test_what_is_nested_as_deeply_as_can_be_read_is_answered(place: str) -> None
     deep: Any = {"kind": "reciprocating"}
     for _ in range(900):
         deep = {"throws": [deep], "kind": "reciprocating"}
-    given: Any = {"machine": EXAMPLES["2d12"]} | {place: deep if place == "machine" else [deep]}
-    found = views(check(LayoutRequest, given))
-    assert (found.front is None) == (place == "machine")
+    body: Any = {"machine": EXAMPLES["2d12"]} | {place: deep if place == "machine" else [deep]}
+    answer = views(check(LayoutRequest, body))
+    assert (answer.front is None) == (place == "machine")
 
 
 _JSON = st.recursive(
@@ -153,8 +155,8 @@ def test_whatever_is_typed_is_answered(name: str, field: str, place: int, value:
         item[sorted(item)[place]] = value
     else:
         typed[field] = value
-    found = views(LayoutRequest(machine=typed))
-    assert (found.front is None) == (found.side is None)
-    assert found.front is not None or found.missing
-    for view in (found.front, found.side):
+    answer = views(LayoutRequest(machine=typed))
+    assert (answer.front is None) == (answer.side is None)
+    assert answer.front is not None or answer.missing
+    for view in (answer.front, answer.side):
         assert view is None or not {"nan", "inf"} & set(view.replace('"', " ").split())

@@ -30,18 +30,18 @@ def area_and_moment(edges: Outline) -> tuple[float, float]:
 @given(plates(), HALF_ANGLES)
 def test_area_and_moment_are_those_of_the_plate(plate: Envelope, half_angle: float) -> None:
     area, moment = area_and_moment(outline(plate, half_angle))
-    known = mechanics_of(plate)
+    envelope = mechanics_of(plate)
     # independent: closed forms of mass and unbalance, of a mass of 1 kg/m^2
     scale = plate.outer_radius_m
-    assert area == pytest.approx(float(known.mass(half_angle)), rel=1e-9, abs=1e-14 * scale**2)
-    assert moment == pytest.approx(float(known.unbalance(half_angle)), rel=1e-9, abs=1e-14 * scale**3)
+    assert area == pytest.approx(float(envelope.mass(half_angle)), rel=1e-9, abs=1e-14 * scale**2)
+    assert moment == pytest.approx(float(envelope.unbalance(half_angle)), rel=1e-9, abs=1e-14 * scale**3)
 
 
 @given(plates(), HALF_ANGLES, st.floats(-10.0, 10.0))
 def test_edges_follow_one_another_also_when_turned(plate: Envelope, half_angle: float, angle: float) -> None:
     for edges in (outline(plate, half_angle), rotation(outline(plate, half_angle), angle)):
-        for one, following in zip(edges, (*edges[1:], edges[0]), strict=True):
-            assert one.end == pytest.approx(following.start, abs=1e-12 * plate.outer_radius_m)
+        for edge, following in zip(edges, (*edges[1:], edges[0]), strict=True):
+            assert edge.end == pytest.approx(following.start, abs=1e-12 * plate.outer_radius_m)
 
 
 @given(plates(), HALF_ANGLES)

@@ -26,9 +26,9 @@ def test_solids_are_closed_and_of_the_volume_of_their_plates(
 def test_several_solids_are_several_products() -> None:
     plate = Envelope(shape="segment", inner_radius_m=0.06, outer_radius_m=0.25, thickness_m=0.04)
     edges = outline(plate, 1.3)
-    said = ["Counterweight 1a", "it's \\ a 'name'", "Gegengewicht für 曲柄 🛠"]
-    file = File(step("machine", [Solid(name, edges, 0.1 * k, 0.1 * k + 0.04) for k, name in enumerate(said)]))
-    assert list(names(file.products())) == said
+    texts = ["Counterweight 1a", "it's \\ a 'name'", "Gegengewicht für 曲柄 🛠"]
+    file = File(step("machine", [Solid(name, edges, 0.1 * k, 0.1 * k + 0.04) for k, name in enumerate(texts)]))
+    assert list(names(file.products())) == texts
     assert file.volumes() == pytest.approx([file.volumes()[0]] * 3, rel=1e-11)
 
 

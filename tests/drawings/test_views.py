@@ -37,34 +37,36 @@ def drawn(name: str, dimensions: bool | None = None) -> Drawing:
 def texts(drawing: Drawing) -> list[tuple[str, Box]]:
     """Names, each with the room that letters of usual width take."""
     (names,) = ElementTree.fromstring(drawing.svg()).findall(f"{SVG}g[@class='names']")
-    found = []
-    for one in names.iter(f"{SVG}text"):
-        size, x, y = (float(one.attrib[name]) for name in ("font-size", "x", "y"))
-        half = 0.28 * size * len(one.text or "")
-        found.append((one.text or "", (x - half, y - 0.75 * size, x + half, y + 0.2 * size)))
-    return found
+    values = []
+    for element in names.iter(f"{SVG}text"):
+        size, x, y = (float(element.attrib[name]) for name in ("font-size", "x", "y"))
+        half = 0.28 * size * len(element.text or "")
+        values.append((element.text or "", (x - half, y - 0.75 * size, x + half, y + 0.2 * size)))
+    return values
 
 
 def outlines(drawing: Drawing) -> list[list[tuple[float, float]]]:
     root = ElementTree.fromstring(drawing.svg())
-    weights = [one for one in root.iter(f"{SVG}g") if "counterweight" in one.attrib["class"].split()]
-    paths = [[path.attrib["d"] for path in one.iter(f"{SVG}path") if path.attrib["fill"] != "none"] for one in weights]
+    weights = [element for element in root.iter(f"{SVG}g") if "counterweight" in element.attrib["class"].split()]
+    paths = [
+        [path.attrib["d"] for path in weight.iter(f"{SVG}path") if path.attrib["fill"] != "none"] for weight in weights
+    ]
     corners = [path[1:-1].split("L") for (path,) in paths]
-    return [[(float(x), float(y)) for x, _, y in (one.partition(" ") for one in corner)] for corner in corners]
+    return [[(float(x), float(y)) for x, _, y in (text.partition(" ") for text in corner)] for corner in corners]
 
 
-def overlap(one: Box, other: Box) -> bool:
-    return one[0] < other[2] and other[0] < one[2] and one[1] < other[3] and other[1] < one[3]
+def overlap(first: Box, second: Box) -> bool:
+    return first[0] < second[2] and second[0] < first[2] and first[1] < second[3] and second[1] < first[3]
 
 
 @pytest.mark.parametrize("name", EXAMPLES)
 @pytest.mark.parametrize("dimensions", [None, False, True])
 def test_no_name_is_over_another(name: str, dimensions: bool | None) -> None:
     drawing = drawn(name, dimensions)
-    found = texts(drawing)
-    assert len(found) > 1
-    assert [pair for pair in combinations(found, 2) if overlap(pair[0][1], pair[1][1])] == []
-    for _, (left, up, right, down) in found:
+    actual_texts = texts(drawing)
+    assert len(actual_texts) > 1
+    assert [pair for pair in combinations(actual_texts, 2) if overlap(pair[0][1], pair[1][1])] == []
+    for _, (left, up, right, down) in actual_texts:
         assert left >= 0
         assert up >= 0
         assert right <= drawing.width
@@ -84,7 +86,7 @@ def test_names_of_webs_stand_clear_of_counterweights(name: str) -> None:
 
 
 def test_names_are_above_all_shapes() -> None:
-    classes = [one.get("class") for one in ElementTree.fromstring(drawn("2d12").svg())]
+    classes = [element.get("class") for element in ElementTree.fromstring(drawn("2d12").svg())]
     assert classes[-1] == "names"
 
 
@@ -99,18 +101,18 @@ def test_plates_are_drawn_as_they_are_cut() -> None:
     root = ElementTree.fromstring(drawing.svg())
     (pin,) = root.iterfind(f"{SVG}g[@class='throw']/{SVG}circle")
     per_m = (drawing.height / 2 - float(pin.attrib["cy"])) / throw.crank_radius_m
-    fitted = sorted(answer.counterweights, key=lambda one: -one.mass_kg)
-    for shape, one in zip(outlines(drawing), fitted, strict=True):
+    fitted = sorted(answer.counterweights, key=lambda counterweight: -counterweight.mass_kg)
+    for shape, weight in zip(outlines(drawing), fitted, strict=True):
         corners = [((x - 200) / per_m, (200 - y) / per_m) for x, y in shape]
         sides = list(zip(corners, corners[1:] + corners[:1], strict=True))
         twice = [a[0] * b[1] - b[0] * a[1] for a, b in sides]
         area = sum(twice) / 2
         centre = [sum((a[k] + b[k]) * t for (a, b), t in zip(sides, twice, strict=True)) / 6 / area for k in (0, 1)]
-        (web,) = (web for web in request.machine.webs if web.name == one.web)
+        (web,) = (web for web in request.machine.webs if web.name == weight.web)
         assert web.envelope is not None
         # a polygon, and hundredths of a px
-        assert abs(area) * web.envelope.thickness_m * 7850 == pytest.approx(one.mass_kg, rel=5e-3)
-        assert math.hypot(*centre) == pytest.approx(one.radius_m, rel=5e-3)
+        assert abs(area) * web.envelope.thickness_m * 7850 == pytest.approx(weight.mass_kg, rel=5e-3)
+        assert math.hypot(*centre) == pytest.approx(weight.radius_m, rel=5e-3)
 
 
 def test_what_stands_towards_the_reader_is_drawn_down_and_to_the_left() -> None:
@@ -132,21 +134,21 @@ def test_what_stands_towards_the_reader_is_drawn_down_and_to_the_left() -> None:
 
 
 def test_pieces_of_a_drawing_say_what_they_are() -> None:
-    titles = [one.text for one in ElementTree.fromstring(drawn("2d12").svg()).iter(f"{SVG}title")]
+    titles = [element.text for element in ElementTree.fromstring(drawn("2d12").svg()).iter(f"{SVG}title")]
     assert "throw 1 at 0°" in titles
     assert any((title or "").startswith("1a: ") for title in titles)
 
 
 def _circles(group: ElementTree.Element) -> list[tuple[float, float]]:
-    return [(float(one.attrib["cx"]), float(one.attrib["cy"])) for one in group.iter(f"{SVG}circle")]
+    return [(float(element.attrib["cx"]), float(element.attrib["cy"])) for element in group.iter(f"{SVG}circle")]
 
 
 def test_balance_shafts_stand_in_their_places_analytic() -> None:
     """Front view: the first circle is the axis, the last one the centre of mass of what it carries."""
     body = single([shaft("one", -1, 0.2, radius=0.05, x_m=-0.12, y_m=0.07)])
     machine = OptimizeRequest.model_validate({"machine": body}).machine
-    given: Any = [{"web": "one web", "mass_kg": 3.0, "angle_deg": 30.0, "radius_m": 0.05}]
-    layout = layout_of(machine, given)
+    counterweights: Any = [{"web": "one web", "mass_kg": 3.0, "angle_deg": 30.0, "radius_m": 0.05}]
+    layout = layout_of(machine, counterweights)
     root = ElementTree.fromstring(front(layout).svg())
     (pin,) = root.iterfind(f"{SVG}g[@class='throw']/{SVG}circle")
     per_m = (200.0 - float(pin.attrib["cy"])) / 0.1
@@ -167,8 +169,8 @@ def test_balance_shafts_stand_beside_the_crankshaft_from_the_side_analytic(place
     body = single([shaft("one", 2, 0.2, radius=0.05, x_m=place[0], y_m=place[1])])
     body["throws"].append(throw(0.4, 90.0, []))
     machine = OptimizeRequest.model_validate({"machine": body}).machine
-    given: Any = [{"web": "one web", "mass_kg": 3.0, "angle_deg": 90.0, "radius_m": 0.05}]
-    root = ElementTree.fromstring(side(layout_of(machine, given), dimensions=True).svg())
+    counterweights: Any = [{"web": "one web", "mass_kg": 3.0, "angle_deg": 90.0, "radius_m": 0.05}]
+    root = ElementTree.fromstring(side(layout_of(machine, counterweights), dimensions=True).svg())
     group, _ = root.iterfind(f"{SVG}g[@class='throw']")
     cheek = next(group.iter(f"{SVG}path")).attrib["d"][1:].split("L")
     (_, shaft_y), (_, pin_y) = (map(float, end.split()) for end in cheek)

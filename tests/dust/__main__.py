@@ -7,21 +7,21 @@ from tests.dust.judgement import Judgement, judgement, seeds
 from tests.dust.modes import MODES
 
 
-def _summary(mode: str, found: list[Judgement]) -> int:
+def _summary(mode: str, judgements: list[Judgement]) -> int:
     """Print what a mode came to; how many machines are at fault."""
-    dust, unlike = (sum(bool(getattr(each, name)) for each in found) for name in ("dust", "unlike"))
-    needed = sum(each.needed for each in found)
-    cpu_s = sum(each.cpu_s for each in found)
+    dust, unlike = (sum(bool(getattr(verdict, name)) for verdict in judgements) for name in ("dust", "unlike"))
+    needed = sum(verdict.needed for verdict in judgements)
+    cpu_s = sum(verdict.cpu_s for verdict in judgements)
     print(
-        f"{mode:17} machines {len(found):5}, answers {sum(each.answers for each in found):6}, "
-        f"open {sum(each.open for each in found):3}, dust {dust:3}, needed {needed:2}, "
+        f"{mode:17} machines {len(judgements):5}, answers {sum(verdict.answers for verdict in judgements):6}, "
+        f"open {sum(verdict.open for verdict in judgements):3}, dust {dust:3}, needed {needed:2}, "
         f"unlike plates {unlike:3}, {cpu_s:6.1f} s CPU",
         flush=True,
     )
-    for each in found:
-        if each.dust or each.unlike:
-            print(f"  seed {each.seed}: {'; '.join([*each.dust, *each.unlike])}", flush=True)
-    return sum(bool(each.dust or each.unlike) for each in found)
+    for finding in judgements:
+        if finding.dust or finding.unlike:
+            print(f"  seed {finding.seed}: {'; '.join([*finding.dust, *finding.unlike])}", flush=True)
+    return sum(bool(verdict.dust or verdict.unlike) for verdict in judgements)
 
 
 def main() -> int:
@@ -31,7 +31,7 @@ def main() -> int:
     parser.add_argument("--mode", choices=list(MODES), help="this one alone")
     options = parser.parse_args()
     faults = 0
-    for mode, some in groupby(seeds(options.count, options.mode), key=lambda each: each[0]):
+    for mode, some in groupby(seeds(options.count, options.mode), key=lambda seed: seed[0]):
         faults += _summary(mode, [judgement(mode, seed) for _, seed in some])
     print(f"at fault: {faults}")
     return 1 if faults else 0

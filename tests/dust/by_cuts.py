@@ -25,9 +25,9 @@ def main() -> None:
     for name, way in ways.items():
         with pytest.MonkeyPatch.context() as patch:
             patch.setattr(Robust, "_cut", way)
-            found = [judgement(_MODE, seed) for seed in range(count)]
-        spent[name] = np.array([each.cpu_s for each in found])
-        left, unlike = sum(each.open for each in found), sum(bool(each.unlike) for each in found)
+            judgements = [judgement(_MODE, seed) for seed in range(count)]
+        spent[name] = np.array([verdict.cpu_s for verdict in judgements])
+        left, unlike = sum(verdict.open for verdict in judgements), sum(bool(verdict.unlike) for verdict in judgements)
         print(f"{name:7} open {left:3}, unlike {unlike:3}, {spent[name].sum():6.1f} s CPU", flush=True)
     share = spent["cuts"] / spent["rounds"]
     print(f"cuts over rounds: median {np.median(share):.2f}, nine of ten below {np.quantile(share, 0.9):.1f}")

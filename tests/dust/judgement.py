@@ -40,9 +40,9 @@ def judgement(mode: str, seed: int) -> Judgement:
     answers = list(MODES[mode].answers(body))
     spent = time.process_time() - began
     small = [(answer, web) for answer in answers for web in _dust(answer)]
-    dust = [_told(answer, web) for answer, web in small if not answer.needs(web)]
-    unlike = [each for answer in answers for each in _unlike(body, answer)]
-    left = sum(each.status not in ("optimal", "infeasible") for each in answers)
+    dust = [_mass_text(answer, web) for answer, web in small if not answer.needs(web)]
+    unlike = [difference for answer in answers for difference in _unlike(body, answer)]
+    left = sum(answer.status not in ("optimal", "infeasible") for answer in answers)
     return Judgement(mode, seed, len(answers), left, tuple(dust), len(small) - len(dust), tuple(unlike), spent)
 
 
@@ -63,14 +63,14 @@ def _dust(answer: Fitted) -> list[str]:
     return [web for web, mass in answer.mass_kg.items() if 0 < mass <= DUST * most]
 
 
-def _told(answer: Fitted, web: str) -> str:
+def _mass_text(answer: Fitted, web: str) -> str:
     return f"{web}: {answer.mass_kg[web]:.2e} kg beside {max(answer.mass_kg.values()):.3g} kg"
 
 
 def _unlike(body: Body, answer: Fitted) -> Iterator[str]:
     kinds = {web["name"]: web.get("envelope") for web in body.get("machine", {}).get("webs", ())}
-    plates = sorted(answer.opened_deg.items(), key=lambda each: each[1])
+    plates = sorted(answer.opened_deg.items(), key=lambda opened_deg: opened_deg[1])
     for number, (web, opened) in enumerate(plates):
-        for other, larger in plates[number + 1 :]:
-            if kinds[web] == kinds[other] and 0 < larger - opened < ALIKE_DEG:
-                yield f"{web} and {other}: {opened:.6f} and {larger:.6f} degrees"
+        for text, larger in plates[number + 1 :]:
+            if kinds[web] == kinds[text] and 0 < larger - opened < ALIKE_DEG:
+                yield f"{web} and {text}: {opened:.6f} and {larger:.6f} degrees"

@@ -35,13 +35,13 @@ def crankshaft(rng: np.random.Generator, sectors: float = 0.0, rods: bool = Fals
         webs += [
             _web(rng, f"{k}{side}", _PITCH_M * (k + at), crank, sectors) for side, at in (("a", -0.25), ("b", 0.25))
         ]
-    found = machine(throws, webs)
+    design = machine(throws, webs)
     if rods:
-        found["bearings"] = [
+        design["bearings"] = [
             {"name": str(k), "position_m": _PITCH_M * (k - 0.5), "diameter_m": 0.1, "length_m": 0.05}
             for k in range(count + 1)
         ]
-    return found
+    return design
 
 
 def _web(rng: np.random.Generator, name: str, z: float, crank: float, sectors: float) -> Body:
@@ -57,7 +57,7 @@ def _web(rng: np.random.Generator, name: str, z: float, crank: float, sectors: f
     return web
 
 
-def with_plates(rng: np.random.Generator, found: Body) -> Body:
+def with_plates(rng: np.random.Generator, body: Body) -> Body:
     """The machine with plates on all webs, or on some: mostly of one kind."""
     share, outer = rng.choice([1.0, 0.5]), _OUTER * 0.2
     kinds = [
@@ -70,23 +70,23 @@ def with_plates(rng: np.random.Generator, found: Body) -> Body:
         }
         for _ in range(rng.integers(1, 3))
     ]
-    for web in found["webs"]:
+    for web in body["webs"]:
         if rng.random() < share:
             del web["counterweight_radius_m"], web["max_mass_kg"]
             web["envelope"] = dict(kinds[rng.integers(len(kinds))])
-    return found
+    return body
 
 
-def with_budget(rng: np.random.Generator, found: Body) -> Body:
+def with_budget(rng: np.random.Generator, body: Body) -> Body:
     """The machine with a limit of the total mass, of which webs take a few times as much."""
-    found["max_total_mass_kg"] = float(rng.uniform(0.1, 0.8)) * sum(web["max_mass_kg"] for web in found["webs"])
-    return found
+    body["max_total_mass_kg"] = float(rng.uniform(0.1, 0.8)) * sum(web["max_mass_kg"] for web in body["webs"])
+    return body
 
 
-def with_groups(rng: np.random.Generator, found: Body) -> Body:
+def with_groups(rng: np.random.Generator, body: Body) -> Body:
     """The machine with the two webs of some throws alike, or mirror images of one another."""
-    found["web_groups"] = []
-    for number, (first, second) in enumerate(zip(found["webs"][::2], found["webs"][1::2], strict=True)):
+    body["web_groups"] = []
+    for number, (first, second) in enumerate(zip(body["webs"][::2], body["webs"][1::2], strict=True)):
         if number and rng.random() < 0.5:
             continue
         first["throw"] = second["throw"] = number
@@ -95,24 +95,24 @@ def with_groups(rng: np.random.Generator, found: Body) -> Body:
             if name in first:
                 second[name] = first[name]
         both = [first["name"], second["name"]]
-        found["web_groups"].append({"name": str(number), "webs": both, "mirror": bool(rng.random() < 0.5)})
-    return found
+        body["web_groups"].append({"name": str(number), "webs": both, "mirror": bool(rng.random() < 0.5)})
+    return body
 
 
-def with_balance_shafts(rng: np.random.Generator, found: Body) -> Body:
+def with_balance_shafts(rng: np.random.Generator, body: Body) -> Body:
     """The machine with a shaft that turns against it."""
     at = [(-0.3, "near"), (0.6, "far")]
     webs = [
         {"name": name, "position_m": z, "counterweight_radius_m": 0.1, "max_mass_kg": float(10 ** rng.uniform(0, 2))}
         for z, name in at
     ]
-    found["balance_shafts"] = [{"name": "balancer", "speed_ratio": -1, "x_m": 0.1, "y_m": 0.05, "webs": webs}]
-    return found
+    body["balance_shafts"] = [{"name": "balancer", "speed_ratio": -1, "x_m": 0.1, "y_m": 0.05, "webs": webs}]
+    return body
 
 
-def scenarios(rng: np.random.Generator, found: Body) -> list[Mapping[str, object]]:
+def scenarios(rng: np.random.Generator, body: Body) -> list[Mapping[str, object]]:
     """Two scenarios: as the machine is, and with another reciprocating or rotating mass."""
-    throws = found["throws"]
+    throws = body["throws"]
     path, old = "/machine/throws/0/rotating_mass_kg", throws[0]["rotating_mass_kg"]
     if throws[-1]["rows"]:
         path = f"/machine/throws/{len(throws) - 1}/rows/0/reciprocating_mass_kg"

@@ -40,8 +40,12 @@ class Mode(NamedTuple):
 
 
 def _masses_and_openings(counterweights: Any) -> tuple[dict[str, float], dict[str, float]]:
-    mass = {one.web: one.mass_kg for one in counterweights if not one.fixed}
-    opened = {one.web: one.shape.half_angle_deg for one in counterweights if one.shape is not None and one.mass_kg > 0}
+    mass = {counterweight.web: counterweight.mass_kg for counterweight in counterweights if not counterweight.fixed}
+    opened = {
+        counterweight.web: counterweight.shape.half_angle_deg
+        for counterweight in counterweights
+        if counterweight.shape is not None and counterweight.mass_kg > 0
+    }
     return mass, opened
 
 
@@ -50,7 +54,7 @@ def of_request(body: Body) -> Iterator[Fitted]:
     answer = optimize(request)
     everywhere = [
         *answer.counterweights,
-        *(one for shaft in answer.balance_shafts or () for one in shaft.counterweights),
+        *(counterweight for shaft in answer.balance_shafts or () for counterweight in shaft.counterweights),
     ]
     yield Fitted(answer.status, *_masses_and_openings(everywhere), partial(is_needed, request, answer))
 
@@ -69,11 +73,11 @@ def of_front(body: Body) -> Iterator[Fitted]:
 
 def of_rows(body: Body) -> Iterator[Fitted]:
     request = check(SweepRequest, body)
-    for found in run_chunk(request.model_dump_json().encode(), 0, request.total).to_pylist():
-        if found["status"] == "failed":
-            raise RuntimeError(found["message"])
-        mass = {name[8:]: value for name, value in found.items() if name.startswith("mass_kg.") and value is not None}
-        yield Fitted(found["status"], mass, {})
+    for row in run_chunk(request.model_dump_json().encode(), 0, request.total).to_pylist():
+        if row["status"] == "failed":
+            raise RuntimeError(row["message"])
+        mass = {name[8:]: value for name, value in row.items() if name.startswith("mass_kg.") and value is not None}
+        yield Fitted(row["status"], mass, {})
 
 
 def _first_order(sectors: float = 0.0, **objective: object) -> Draw:
@@ -101,10 +105,10 @@ def _ceilings(rng: np.random.Generator) -> Body:
     body = _first_order(_half(rng))(rng)
     of_force = bool(rng.random() < 0.5)
     alone = {"force_weight": float(of_force), "moment_weight": float(not of_force)}
-    found = optimize(check(OptimizeRequest, {**body, "objective": alone}))
-    assert found.certificate is not None
+    answer = optimize(check(OptimizeRequest, {**body, "objective": alone}))
+    assert answer.certificate is not None
     field = "force_ceiling_N" if of_force else "moment_ceiling_Nm"
-    body["objective"] = {field: float(rng.uniform(1.01, 2.0)) * found.certificate.objective}
+    body["objective"] = {field: float(rng.uniform(1.01, 2.0)) * answer.certificate.objective}
     return body
 
 
@@ -174,14 +178,14 @@ def _priorities(rng: np.random.Generator) -> Body:
     named = [
         {"goal": str(name), "allowance": float(rng.choice([0.0, 1e-3, 0.05]))} for name in rng.permutation(_ORDERED)
     ]
-    chosen = [each for each in named if each["goal"] == "external" or count > 1][:count]
+    chosen = [fields for fields in named if fields["goal"] == "external" or count > 1][:count]
     weights = {"bearings": "bearing_weight", "bending": "bending_weight"}
-    asked: Body = {weights[each["goal"]]: 1.0 for each in chosen if each["goal"] in weights}
-    if all(each["goal"] != "external" for each in chosen):
-        asked |= {"force_weight": 0, "moment_weight": 0}
+    fields: Body = {weights[fields["goal"]]: 1.0 for fields in chosen if fields["goal"] in weights}
+    if all(fields["goal"] != "external" for fields in chosen):
+        fields |= {"force_weight": 0, "moment_weight": 0}
     if rng.random() < 0.5:
         chosen.append({"goal": "mass"})
-    return _turn(priorities=chosen, **asked)(rng)
+    return _turn(priorities=chosen, **fields)(rng)
 
 
 def _light(rng: np.random.Generator) -> Body:

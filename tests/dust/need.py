@@ -47,7 +47,7 @@ def is_needed(request: OptimizeRequest, answer: OptimizeAnswer, web: str) -> boo
         return False
     plain = objective.of_the_shaft and objective.bearing_measure != "rms"
     plain &= not (request.scenarios or request.robust or machine.web_groups or machine.balance_shafts)
-    if not plain or any(each.envelope is not None or each.max_mass_kg is None for each in machine.webs):
+    if not plain or any(plane.envelope is not None or plane.max_mass_kg is None for plane in machine.webs):
         return False
     scene = prepare(request, ("residual",), effects_of_objective(objective))
     case = Case(machine, scene.omega_squared, (scene.responses,), (whole_turn_of(scene, objective), scene.laden))
@@ -76,21 +76,21 @@ def is_needed_at(request: ParetoRequest, front: ParetoFront, point: ParetoPoint,
         return False
     scene = prepare(request, ("residual",))
     whole = trade_of(request)
-    peaks = np.array([[each.weighted_force_peak_N, each.weighted_moment_peak_Nm] for each in front.points])
+    peaks = np.array([[position.weighted_force_peak_N, position.weighted_moment_peak_Nm] for position in front.points])
     unit = np.ptp(peaks, axis=0) / float(scene.omega_squared)
     if not np.all(unit > 0.0):
         return False
     here = np.array([point.weighted_force_peak_N, point.weighted_moment_peak_Nm]) / float(scene.omega_squared)
-    most = np.where([each.name == web for each in machine.webs], 0.0, whole.minimax.limits.max_mass)
+    most = np.where([plane.name == web for plane in machine.webs], 0.0, whole.minimax.limits.max_mass)
     program = whole.within(most, whole.cap).along(here, unit)
     # t is nothing at the point
     target = _SHARPEST - whole.parameter(0.0, here, unit)
-    found = optima(program.alone(), _SHARPEST, False).single()
-    if found.conflict is not None or found.lower_bound > target:
+    solution = optima(program.alone(), _SHARPEST, False).single()
+    if solution.conflict is not None or solution.lower_bound > target:
         return True
-    found = optima(program.alone(), target - found.lower_bound + _SHARPEST, True).single()
-    assert found.conflict is None
-    return found.mass_target >= target and found.mass_lower_bound > point.total_mass_kg / (1.0 - MASS_GAP)
+    minimum = optima(program.alone(), target - solution.lower_bound + _SHARPEST, True).single()
+    assert minimum.conflict is None
+    return minimum.mass_target >= target and minimum.mass_lower_bound > point.total_mass_kg / (1.0 - MASS_GAP)
 
 
 @dataclass
@@ -105,8 +105,8 @@ class _Without:
 
     def __post_init__(self) -> None:
         self.angles = [
-            np.linspace(0.0, np.deg2rad(each.response.period_deg), _COARSE, endpoint=False)
-            for each in self.program.quantities
+            np.linspace(0.0, np.deg2rad(quantity.response.period_deg), _COARSE, endpoint=False)
+            for quantity in self.program.quantities
         ]
 
     def comes_to_more(self, minimised: str, most: float) -> bool:
@@ -123,8 +123,8 @@ class _Without:
         count = len(self.request.machine.webs)
         x, y, mass = (cp.Variable(count) for _ in range(3))
         goals = [self._goal(goal, x, y) for goal in self.program.goals]
-        kept = list(zip(goals, self.largest.tolist(), strict=True))
-        constraints = [goal <= most for goal, most in (kept if minimised == "mass" else kept[:-1])]
+        values = list(zip(goals, self.largest.tolist(), strict=True))
+        constraints = [goal <= most for goal, most in (values if minimised == "mass" else values[:-1])]
         constraints += self._limits(x, y, mass)
         cost = cp.sum(mass) if minimised == "mass" else goals[-1]
         problem = cp.Problem(cp.Minimize(cost), constraints)
@@ -136,7 +136,7 @@ class _Without:
     def _limits(self, x: cp.Variable, y: cp.Variable, mass: cp.Variable) -> Iterator[cp.Constraint]:
         machine, within = self.request.machine, limits(self.request.machine)
         yield cp.norm(cp.vstack([x, y]), axis=0) <= cp.multiply(within.radius, mass)
-        yield mass <= np.where([each.name == self.web for each in machine.webs], 0.0, within.max_mass)
+        yield mass <= np.where([web.name == self.web for web in machine.webs], 0.0, within.max_mass)
         for n in np.flatnonzero(~within.free).tolist():
             centre = within.centre[n]
             along, across = centre.real * x[n] + centre.imag * y[n], centre.real * y[n] - centre.imag * x[n]
@@ -149,12 +149,12 @@ class _Without:
         groups = []
         for group in goal.groups:
             several = [_row(row, x, y) for row in group.rows]
-            for each in group.weighed:
-                response = self.program.quantities[each.quantity].response
-                angles = self.angles[each.quantity]
+            for weighed_row in group.weighed:
+                response = self.program.quantities[weighed_row.quantity].response
+                angles = self.angles[weighed_row.quantity]
                 curve = response.at(angles)
                 influence = np.repeat(np.asarray(response.influence)[None], angles.size, axis=0)
-                several.append(each.offset + each.weight * cp.max(_sizes(curve, influence, x, y)))
+                several.append(weighed_row.offset + weighed_row.weight * cp.max(_sizes(curve, influence, x, y)))
             groups.append(cp.maximum(*several) if len(several) > 1 else several[0])
         return sum(groups[1:], groups[0])
 

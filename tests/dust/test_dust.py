@@ -21,9 +21,9 @@ _MACHINES = 2_000
 
 @pytest.mark.parametrize("mode", MODES)
 def test_every_mode_is_answered(mode: str) -> None:
-    found = judgement(mode, 0)
-    assert found.answers > 0
-    assert not found.dust
+    verdict = judgement(mode, 0)
+    assert verdict.answers > 0
+    assert not verdict.dust
 
 
 #: machines that had dust, or unlike plates
@@ -39,29 +39,34 @@ _REGRESSIONS = (
 @pytest.mark.parametrize(("mode", "seed"), part(3, _REGRESSIONS, rows=True))
 def test_dust_stays_away(mode: str, seed: int) -> None:
     """Regression: webs left empty that no optimum needs, and plates of one size."""
-    found = judgement(mode, seed)
-    assert found.open == 0
-    assert not found.dust
-    assert not found.unlike
+    verdict = judgement(mode, seed)
+    assert verdict.open == 0
+    assert not verdict.dust
+    assert not verdict.unlike
 
 
 def test_needed_web_is_no_dust() -> None:
     """Independent: without a web of 1.3 g the bearings come to 0.35 N more than three goals in order allow."""
-    found = judgement("priorities", 7)
-    assert (found.dust, found.needed) == ((), 1)
+    verdict = judgement("priorities", 7)
+    assert (verdict.dust, verdict.needed) == ((), 1)
 
 
 def test_needed_web_at_the_end_of_a_front_is_no_dust() -> None:
     """At the smallest force a web of 23 mg saves more of another one than the proof of the mass allows."""
-    found = judgement("front", 206)
-    assert (found.dust, found.needed) == ((), 1)
+    verdict = judgement("front", 206)
+    assert (verdict.dust, verdict.needed) == ((), 1)
 
 
 def test_web_that_a_point_lacks_is_not_needed() -> None:
     """Analytic, as below."""
     request = check(ParetoRequest, body_of("front", 365))
     (front,) = pareto(request).fronts
-    empty = [(point, each.web) for point in front.points for each in point.counterweights if each.mass_kg == 0.0]
+    empty = [
+        (point, counterweight.web)
+        for point in front.points
+        for counterweight in point.counterweights
+        if counterweight.mass_kg == 0.0
+    ]
     assert empty
     assert not any(is_needed_at(request, front, point, web) for point, web in empty)
 
@@ -70,7 +75,7 @@ def test_web_that_an_answer_lacks_is_not_needed() -> None:
     """Analytic: an answer that is as good without a web disproves that it is needed."""
     request = check(OptimizeRequest, body_of("priorities", 13))
     answer = optimize(request)
-    empty = [each.web for each in answer.counterweights if each.mass_kg == 0.0]
+    empty = [counterweight.web for counterweight in answer.counterweights if counterweight.mass_kg == 0.0]
     assert empty
     assert not any(is_needed(request, answer, web) for web in (empty if ALL else empty[:2]))
 
@@ -79,8 +84,8 @@ def test_web_that_an_answer_lacks_is_not_needed() -> None:
 @pytest.mark.parametrize("mode", MODES)
 def test_no_dust(mode: str) -> None:
     at_fault = [
-        f"seed {seed}: {'; '.join([*found.dust, *found.unlike])}"
+        f"seed {seed}: {'; '.join([*verdict.dust, *verdict.unlike])}"
         for name, seed in seeds(_MACHINES)
-        if name == mode and ((found := judgement(name, seed)).dust or found.unlike)
+        if name == mode and ((verdict := judgement(name, seed)).dust or verdict.unlike)
     ]
     assert not at_fault

@@ -29,7 +29,7 @@ def figures(answer: AnalyzeAnswer) -> dict[str, Any]:
     return {name: dumped[name] for name in EVERY}
 
 
-def found(*outputs: str, body: dict[str, Any] | None = None, **rest: Any) -> AnalyzeAnswer:
+def outputs_with_counterweight(*outputs: str, body: dict[str, Any] | None = None, **rest: Any) -> AnalyzeAnswer:
     """Outputs of a machine, with a counterweight on it."""
     fitted = [{"web": "a", "mass_kg": 12.0, "angle_deg": 70.0}]
     return ask(complete() if body is None else body, *outputs, step_deg=15.0, counterweights=fitted, **rest)

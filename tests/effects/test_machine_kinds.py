@@ -24,6 +24,6 @@ def test_a_machine_of_the_kind_is_itself() -> None:
 def test_another_kind_is_named() -> None:
     with pytest.raises(TypeError, match="a scroll machine has no rows"):
         reciprocating(machine(SCROLL))
-    for other in (complete(), SCROLL):
+    for fields in (complete(), SCROLL):
         with pytest.raises(TypeError, match="machine has no crank pins"):
-            pinned_scroll(machine(other))
+            pinned_scroll(machine(fields))

@@ -13,7 +13,7 @@ from optimizer.errors import MissingInput
 from optimizer.outputs.registry import MAX_SAMPLES, OUTPUTS
 from schemas.machine.reciprocating import ReciprocatingMachine
 from tests.analyze.driven import ask
-from tests.effects.machines import EVERY, SCROLL, complete, figures, found
+from tests.effects.machines import EVERY, SCROLL, complete, figures, outputs_with_counterweight
 
 _EXACT = ("residual", "balance_rate", "hodograph", "orders", "foundation_loads", "stages", "internal_moment")
 SAMPLED = tuple(name for name in EVERY if name not in _EXACT)
@@ -29,14 +29,14 @@ def test_an_output_does_with_its_own_effects_and_never_changes_another(
     output: str, friction: bool, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     body = complete() if friction else complete(friction=None)
-    together = figures(found(*EVERY, body=body))
+    together = figures(outputs_with_counterweight(*EVERY, body=body))
     needed = closure(ReciprocatingMachine.model_validate(body), OUTPUTS[output].needs)
     broken = {
         name: effect if name in needed else replace(effect, simulate=_never, problems=_never)
         for name, effect in EFFECTS.items()
     }
     monkeypatch.setattr(registry, "EFFECTS", broken)
-    alone = found(output, body=body)
+    alone = outputs_with_counterweight(output, body=body)
     assert figures(alone)[output] == together[output]  # to the bit
     assert figures(alone)[output] is not None
     # the balance rate stands in every answer
@@ -50,11 +50,13 @@ def test_an_output_does_with_its_own_effects_and_never_changes_another(
 @pytest.mark.parametrize("seed", range(3))
 def test_the_order_of_the_outputs_is_of_no_account(seed: int) -> None:
     body = complete(seed)
-    assert figures(found(*EVERY, body=body)) == figures(found(*reversed(EVERY), body=body))
+    assert figures(outputs_with_counterweight(*EVERY, body=body)) == figures(
+        outputs_with_counterweight(*reversed(EVERY), body=body)
+    )
 
 
 def test_needed_by() -> None:
-    uses = found("torque", "gas", "residual").effects
+    uses = outputs_with_counterweight("torque", "gas", "residual").effects
     assert uses["kinematics"].needed_by == ("torque", "gas")
     assert uses["gas"].needed_by == ("torque", "gas")
     assert uses["torque"].needed_by == ("torque",)
@@ -65,7 +67,7 @@ def test_needed_by() -> None:
 
 def test_friction_is_not_simulated_where_there_is_none() -> None:
     body = complete(friction=None)
-    answer = found("torque", "piston_force", body=body)
+    answer = outputs_with_counterweight("torque", "piston_force", body=body)
     assert not answer.effects["friction"].simulated
     assert answer.effects["friction"].needed_by == ()
     assert answer.torque.friction_power_W == answer.torque.rotating_friction_Nm == 0.0
@@ -73,22 +75,24 @@ def test_friction_is_not_simulated_where_there_is_none() -> None:
 
 
 def test_friction_given_as_nothing_is_no_friction() -> None:
-    none = found(*EVERY, body=complete(friction=None))
-    zero = found(*EVERY, body=complete(friction={"rotating_torque_Nm": 0.0}))
+    none = outputs_with_counterweight(*EVERY, body=complete(friction=None))
+    zero = outputs_with_counterweight(*EVERY, body=complete(friction={"rotating_torque_Nm": 0.0}))
     assert zero.effects["friction"].simulated
     assert figures(none) == figures(zero)
 
 
 @pytest.mark.parametrize("output", SAMPLED)
 def test_the_floor_is_null_where_no_output_asks_for_the_first_order(output: str) -> None:
-    assert found(output).floor is None
-    assert found(output, "residual").floor == found("residual").floor is not None
+    assert outputs_with_counterweight(output).floor is None
+    assert (
+        outputs_with_counterweight(output, "residual").floor == outputs_with_counterweight("residual").floor is not None
+    )
 
 
 def _refused(output: str, body: dict[str, Any]) -> set[tuple[str | int, ...]]:
     """Fields that are named as missing; none where the output is answered."""
     try:
-        found(output, body=body)
+        outputs_with_counterweight(output, body=body)
     except MissingInput as missing:
         return {problem.path for problem in missing.problems if f"output '{output}'" in problem.message}
     return set()
@@ -135,7 +139,7 @@ def test_all_that_is_missing_is_named_at_once() -> None:
     body = complete(flywheel=None, bearings=[])
     del body["throws"][0]["rows"][0]["cylinder"]
     with pytest.raises(MissingInput) as refused:
-        found(*EVERY, body=body)
+        outputs_with_counterweight(*EVERY, body=body)
     problems = {problem.path: problem.message for problem in refused.value.problems}
     row = ("machine", "throws", 0, "rows", 0, "cylinder")
     assert set(problems) == {row, ("machine", "flywheel"), ("machine", "bearings")}
@@ -145,41 +149,41 @@ def test_all_that_is_missing_is_named_at_once() -> None:
 @pytest.mark.parametrize("output", SAMPLED)
 def test_a_scroll_has_no_rows_to_simulate(output: str) -> None:
     with pytest.raises(MissingInput) as refused:
-        found_scroll(output)
+        scroll_effects(output)
     assert [problem.path for problem in refused.value.problems] == [("machine", "kind")]
 
 
-def found_scroll(*outputs: str) -> Any:
+def scroll_effects(*outputs: str) -> Any:
     return ask(SCROLL, *outputs, step_deg=15.0)
 
 
 def test_a_scroll_has_its_first_order() -> None:
-    assert found_scroll("residual", "hodograph", "orders", "foundation_loads", "stages").residual is not None
+    assert scroll_effects("residual", "hodograph", "orders", "foundation_loads", "stages").residual is not None
 
 
 def test_order_2_is_the_series() -> None:
-    series = found("kinematics", "orders", "stages", fidelity={"kinematics": "order_2"})
-    exact = found("kinematics", "orders", "stages")
+    series = outputs_with_counterweight("kinematics", "orders", "stages", fidelity={"kinematics": "order_2"})
+    exact = outputs_with_counterweight("kinematics", "orders", "stages")
     body = complete()
     assert series.orders.before[0] == exact.orders.before[0]
     assert series.orders.before[1] != exact.orders.before[1]
-    assert [one.force.peak_N for one in series.orders.before[2:]] == [0.0, 0.0]
+    assert [order.force.peak_N for order in series.orders.before[2:]] == [0.0, 0.0]
     omega = body["speed_rpm"] * math.pi / 30.0
-    for row, other, throw in zip(series.kinematics.rows, exact.kinematics.rows, (0, 0, 1, 1), strict=True):
+    for row, line, throw in zip(series.kinematics.rows, exact.kinematics.rows, (0, 0, 1, 1), strict=True):
         radius = body["throws"][throw]["crank_radius_m"]
         length = body["throws"][row.throw]["rows"][row.row]["connecting_rod"]["length_m"]
         # analytic: r w^2 (cos phi + lam cos 2 phi)
-        phi = [math.radians(one) for one in row.crank_angle_deg]
+        phi = [math.radians(value) for value in row.crank_angle_deg]
         expected = [radius * omega**2 * (math.cos(p) + radius / length * math.cos(2 * p)) for p in phi]
         assert row.acceleration_m_s2 == pytest.approx(expected, rel=1e-9, abs=1e-9 * radius * omega**2)
-        assert row.crank_angle_deg == other.crank_angle_deg
-        assert row.acceleration_m_s2 != other.acceleration_m_s2
+        assert row.crank_angle_deg == line.crank_angle_deg
+        assert row.acceleration_m_s2 != line.acceleration_m_s2
 
 
 def test_fidelity_of_the_shaft_changes_the_bearings_alone() -> None:
     body = complete()
-    hinged = figures(found(*EVERY, body=body))
-    continuous = figures(found(*EVERY, body=body, fidelity={"shaft": "continuous"}))
+    hinged = figures(outputs_with_counterweight(*EVERY, body=body))
+    continuous = figures(outputs_with_counterweight(*EVERY, body=body, fidelity={"shaft": "continuous"}))
     # loads have the weights on the bearings
     assert {name for name in EVERY if hinged[name] != continuous[name]} == {"main_bearings", "loads"}
 
@@ -226,7 +230,7 @@ def test_more_pins_than_can_be_sampled_are_refused() -> None:
 
 def test_more_rows_than_can_be_sampled_are_refused() -> None:
     body = complete()
-    count = sum(len(one["rows"]) for one in body["throws"]) + len(body["bearings"])
+    count = sum(len(throw["rows"]) for throw in body["throws"]) + len(body["bearings"])
     with pytest.raises(MissingInput) as caught:
         ask(body | {"throws": body["throws"] * 3}, "gas", "residual", step_deg=0.01)
     assert ("angles", "step_deg") in [problem.path for problem in caught.value.problems]

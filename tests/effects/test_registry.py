@@ -55,12 +55,13 @@ def _fields(model: Any, path: list[str]) -> bool:
         return True
     annotations, models = [model], []
     while annotations:
-        each = annotations.pop()
-        annotations.extend(get_args(each))
-        if hasattr(each, "model_fields"):
-            models.append(each)
+        remainder = annotations.pop()
+        annotations.extend(get_args(remainder))
+        if hasattr(remainder, "model_fields"):
+            models.append(remainder)
     return any(
-        path[0] in one.model_fields and _fields(one.model_fields[path[0]].annotation, path[1:]) for one in models
+        path[0] in scheme.model_fields and _fields(scheme.model_fields[path[0]].annotation, path[1:])
+        for scheme in models
     )
 
 
@@ -87,13 +88,13 @@ def test_closure_holds_the_needs_of_needs_in_order() -> None:
 
 @pytest.mark.parametrize("friction", [True, False])
 def test_the_context_holds_exactly_what_was_declared(monkeypatch: pytest.MonkeyPatch, friction: bool) -> None:
-    seen: dict[str, list[set[str]]] = {}
+    fields: dict[str, list[set[str]]] = {}
 
     def watched(name: str) -> Any:
         simulate_it = EFFECTS[name].simulate
 
         def spy(context: Context) -> Any:
-            seen.setdefault(name, []).append(set(context.results))
+            fields.setdefault(name, []).append(set(context.results))
             return simulate_it(context)
 
         return replace(EFFECTS[name], simulate=spy)
@@ -104,10 +105,10 @@ def test_the_context_holds_exactly_what_was_declared(monkeypatch: pytest.MonkeyP
     simulate(machine, layout(machine), _ASKED, Fidelity(), np.linspace(0.0, 6.0, 8))
     for name, effect in EFFECTS.items():
         if name == "pin_loads" or (name == "friction" and not friction):
-            assert name not in seen
+            assert name not in fields
             continue
         declared = {need for need in effect.needs if friction or need != "friction"}
-        assert all(given == declared for given in seen[name]), name
+        assert all(texts == declared for texts in fields[name]), name
 
 
 def test_every_effect_runs_once_at_the_samples(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -130,7 +131,7 @@ def test_every_effect_runs_once_at_the_samples(monkeypatch: pytest.MonkeyPatch) 
 
 def test_a_result_is_kept_only_for_the_outputs_that_name_it() -> None:
     machine = ReciprocatingMachine.model_validate(complete())
-    asked = {name: OUTPUTS[name].needs for name in ("rod_loads", "flywheel")}
-    found = simulate(machine, layout(machine), asked, Fidelity(), np.linspace(0.0, 6.0, 7))
-    assert set(found.results) == {need for needs in asked.values() for need in needs}
-    assert {name for name, use in found.uses.items() if use["simulated"]} > set(found.results)
+    actual_needs = {name: OUTPUTS[name].needs for name in ("rod_loads", "flywheel")}
+    simulation = simulate(machine, layout(machine), actual_needs, Fidelity(), np.linspace(0.0, 6.0, 7))
+    assert set(simulation.results) == {need for needs in actual_needs.values() for need in needs}
+    assert {name for name, use in simulation.uses.items() if use["simulated"]} > set(simulation.results)

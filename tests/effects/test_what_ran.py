@@ -69,10 +69,10 @@ def test_an_optimum_tells_what_ran(ran: Counter[str], name: str) -> None:
     request = OptimizeRequest.model_validate(body)
     ran.clear()
     answer = optimize(request)
-    told = {effect for effect, use in answer.effects.items() if use.simulated}
-    assert told == set(ran)
-    assert beyond <= told
-    assert beyond or told <= INERTIA
+    effects = {effect for effect, use in answer.effects.items() if use.simulated}
+    assert effects == set(ran)
+    assert beyond <= effects
+    assert beyond or effects <= INERTIA
     for effect, use in answer.effects.items():
         assert (use.time_ms > 0) == bool(use.needed_by) == (effect in ran), effect
     for effect in ("whole_turn", "frame_forces"):

@@ -74,28 +74,28 @@ def test_an_example_has_webs_and_rods_for_every_output(name: str) -> None:
 
 
 def features() -> set[str]:
-    found = set()
+    names = set()
     for name in NAMES:
         request = request_of(name)
         machine, objective = request.machine, request.objective
-        found |= {machine.kind, machine.rotation, objective.combine}
-        found |= {"sector"} if any(web.sector for web in machine.webs) else set()
-        found |= {"budget"} if machine.max_total_mass_kg is not None else set()
-        found |= {"ceiling"} if objective.moment_ceiling_Nm is not None else set()
-        found |= {"directions"} if objective.direction_weights.x != objective.direction_weights.y else set()
-        found |= {"unit"} if '"140 mm"' in FILES[NAMES.index(name)].read_text() else set()
+        names |= {machine.kind, machine.rotation, objective.combine}
+        names |= {"sector"} if any(web.sector for web in machine.webs) else set()
+        names |= {"budget"} if machine.max_total_mass_kg is not None else set()
+        names |= {"ceiling"} if objective.moment_ceiling_Nm is not None else set()
+        names |= {"directions"} if objective.direction_weights.x != objective.direction_weights.y else set()
+        names |= {"unit"} if '"140 mm"' in FILES[NAMES.index(name)].read_text() else set()
         if isinstance(machine, ReciprocatingMachine):
             rows = [row for throw in machine.throws for row in throw.rows]
             cylinders = [row.cylinder for row in rows if row.cylinder]
-            found |= {"gas"} if cylinders else set()
-            found |= {"indicated"} if any(cylinder.pressure for cylinder in cylinders) else set()
-            found |= {"offset"} if any(row.offset_m for row in rows) else set()
-    return found
+            names |= {"gas"} if cylinders else set()
+            names |= {"indicated"} if any(cylinder.pressure for cylinder in cylinders) else set()
+            names |= {"offset"} if any(row.offset_m for row in rows) else set()
+    return names
 
 
 def test_the_examples_show_what_the_service_can_do() -> None:
-    wanted = {"reciprocating", "scroll", "ccw", "cw", "sum", "max", "sector", "budget", "ceiling", "directions"}
-    assert features() >= wanted | {"unit", "gas", "indicated", "offset"}
+    texts = {"reciprocating", "scroll", "ccw", "cw", "sum", "max", "sector", "budget", "ceiling", "directions"}
+    assert features() >= texts | {"unit", "gas", "indicated", "offset"}
 
 
 @pytest.mark.parametrize("name", ["six-columns", "opposed-triple", "forked-rod", "inline-six"])
@@ -194,21 +194,21 @@ def test_balance_shafts_take_what_counterweights_leave() -> None:
 
 def test_a_twin_from_a_catalogue() -> None:
     body = json.loads(FILES[NAMES.index("catalogue-twin")].read_text())
-    found = optimize(OptimizeRequest.model_validate(body))
-    assert found.status_reason.startswith("Proven optimal: of all sets")
-    masses = [one.mass_kg for one in found.counterweights]
+    answer = optimize(OptimizeRequest.model_validate(body))
+    assert answer.status_reason.startswith("Proven optimal: of all sets")
+    masses = [counterweight.mass_kg for counterweight in answer.counterweights]
     assert set(masses) <= {0.0, *body["machine"]["catalogue"]["masses_kg"]}
     assert len(set(masses) - {0.0}) <= 2
     # the web at the drive end has holes of its own
-    assert found.counterweights[-1].angle_deg in (0.0, *body["machine"]["webs"][-1]["hole_angles_deg"])
+    assert answer.counterweights[-1].angle_deg in (0.0, *body["machine"]["webs"][-1]["hole_angles_deg"])
 
 
 def test_a_row_with_plates_keeps_half_of_what_reciprocates_analytic() -> None:
-    found = optimize(request_of("plate-single"))
-    assert found.residual.after is not None
+    answer = optimize(request_of("plate-single"))
+    assert answer.residual.after is not None
     half = 0.5 * 4.0 * 0.06 * (1000.0 * np.pi / 30.0) ** 2
-    assert found.residual.after.force.peak_N == pytest.approx(half, rel=1e-5)
-    assert [one.shape is not None for one in found.counterweights] == [True, True]
+    assert answer.residual.after.force.peak_N == pytest.approx(half, rel=1e-5)
+    assert [counterweight.shape is not None for counterweight in answer.counterweights] == [True, True]
 
 
 def test_crank_orders_of_an_eight() -> None:

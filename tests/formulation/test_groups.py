@@ -27,24 +27,24 @@ def _grouped(mirror: bool = False, catalogue: Any = None, **changes: dict[str, A
 
 @pytest.mark.parametrize("mirror", [False, True])
 def test_webs_of_a_group_carry_the_same_as_seen_from_their_own_cranks(mirror: bool) -> None:
-    found = alike_webs(_grouped(mirror))
-    assert found is not None
-    assert found.leader == (0, 0, 0, 3)
-    assert found.mirrored == (False, mirror, False, False)
+    webs = alike_webs(_grouped(mirror))
+    assert webs is not None
+    assert webs.leader == (0, 0, 0, 3)
+    assert webs.mirrored == (False, mirror, False, False)
     first = 0.7 * np.exp(1j * np.deg2rad(75.0))
-    carried = found.carried(np.array([first, 2.0]))
-    own = [np.rad2deg(np.angle(each)) - crank for each, crank in zip(carried[:3], _CRANKS, strict=True)]
+    carried = webs.carried(np.array([first, 2.0]))
+    own = [np.rad2deg(np.angle(value)) - crank for value, crank in zip(carried[:3], _CRANKS, strict=True)]
     expected = [55.0, -55.0 if mirror else 55.0, 55.0]
-    assert [(one - wanted + 180.0) % 360.0 - 180.0 for one, wanted in zip(own, expected, strict=True)] == pytest.approx(
-        [0.0] * 3, abs=1e-9
-    )
+    assert [
+        (value - number + 180.0) % 360.0 - 180.0 for value, number in zip(own, expected, strict=True)
+    ] == pytest.approx([0.0] * 3, abs=1e-9)
     assert np.abs(carried) == pytest.approx([0.7, 0.7, 0.7, 2.0])
-    assert np.all((found.ahead_deg >= 0.0) & (found.ahead_deg < 360.0))
+    assert np.all((webs.ahead_deg >= 0.0) & (webs.ahead_deg < 360.0))
     # masses and angles are so as well, to the last digit, below a whole turn
-    mass, angle = found.fitted(np.array([3.0, 9.0, 9.0, 1.0]), np.array([75.0, 1.0, 2.0, 40.0]))
+    mass, angle = webs.fitted(np.array([3.0, 9.0, 9.0, 1.0]), np.array([75.0, 1.0, 2.0, 40.0]))
     assert mass.tolist() == [3.0, 3.0, 3.0, 1.0]
     assert angle == pytest.approx([75.0, 140.0 + expected[1] if mirror else 195.0, 345.0, 40.0])
-    nothing = found.fitted(np.zeros(4), np.full(4, 33.0))[1]
+    nothing = webs.fitted(np.zeros(4), np.full(4, 33.0))[1]
     assert nothing.tolist() == [0.0] * 4
 
 
@@ -59,9 +59,9 @@ def _refused(mirror: bool = False, **changes: Any) -> list[tuple[str, str]]:
         return []
     with pytest.raises(OutOfRange) as refused:
         alike_webs(_grouped(mirror, **changes))
-    found = list(refused.value.problems)
-    assert {problem.path[:4] for problem in found} == {("machine", "web_groups", 0, "webs")}
-    return [("abc"[int(problem.path[4])], problem.message) for problem in found]
+    problems = list(refused.value.problems)
+    assert {problem.path[:4] for problem in problems} == {("machine", "web_groups", 0, "webs")}
+    return [("abc"[int(problem.path[4])], problem.message) for problem in problems]
 
 
 @pytest.mark.parametrize(
@@ -101,9 +101,9 @@ def _sector(centre: float, half: float = 30.0) -> dict[str, Any]:
 def test_sectors_of_a_group_are_the_same_from_their_own_cranks(
     mirror: bool, sectors: tuple[float, ...], unlike: str
 ) -> None:
-    found = _refused(mirror, **{name: _sector(at) for name, at in zip("abc", sectors, strict=True)})
-    assert "".join(name for name, _ in found) == unlike
-    assert all("sector, counted from the own crank," in message for _, message in found)
+    refusal = _refused(mirror, **{name: _sector(at) for name, at in zip("abc", sectors, strict=True)})
+    assert "".join(name for name, _ in refusal) == unlike
+    assert all("sector, counted from the own crank," in message for _, message in refusal)
     wider = _refused(mirror, a=_sector(75.0), b=_sector(85.0 if mirror else 195.0, 31.0), c=_sector(345.0))
     assert [name for name, _ in wider] == ["b"]
     missing = _refused(mirror, a=_sector(75.0), b=_sector(85.0 if mirror else 195.0))
@@ -124,15 +124,15 @@ def test_sectors_of_a_group_are_the_same_from_their_own_cranks(
 def test_holes_of_a_group_are_the_same_from_their_own_cranks(
     mirror: bool, holes: tuple[list[float], ...], unlike: str
 ) -> None:
-    of_webs = {name: {"hole_angles_deg": each} for name, each in zip("abc", holes, strict=True)}
-    found = _refused(mirror, catalogue=_CATALOGUE, **of_webs)
-    assert "".join(name for name, _ in found) == unlike
-    assert all("hole_angles_deg, counted from the own crank," in message for _, message in found)
+    of_webs = {name: {"hole_angles_deg": hole} for name, hole in zip("abc", holes, strict=True)}
+    refusal = _refused(mirror, catalogue=_CATALOGUE, **of_webs)
+    assert "".join(name for name, _ in refusal) == unlike
+    assert all("hole_angles_deg, counted from the own crank," in message for _, message in refusal)
 
 
 def test_masses_of_a_group_are_the_same_in_any_order() -> None:
-    def masses(*each: list[float]) -> dict[str, Any]:
-        of_webs = {name: {"catalogue_masses_kg": one} for name, one in zip("abc", each, strict=True)}
+    def masses(*arguments: list[float]) -> dict[str, Any]:
+        of_webs = {name: {"catalogue_masses_kg": argument} for name, argument in zip("abc", arguments, strict=True)}
         return {"catalogue": _CATALOGUE, **of_webs}
 
     assert _refused(**masses([1.0, 2.0], [2.0, 1.0], [1.0, 2.0])) == []

@@ -40,36 +40,36 @@ def limited(**more: Any) -> ReciprocatingMachine:
          "fixed": {"mass_kg": 1.5, "angle_deg": 30.0}},
     ]  # fmt: skip
     body = machine([throw(0.0, 0.0, [row(90.0, 5.0)])], webs, overspeed_rpm=660.0, max_total_mass_kg=9.0, **more)
-    made = closed(ReciprocatingMachine.model_validate(body))
-    assert isinstance(made, ReciprocatingMachine)
-    return made
+    polygon = closed(ReciprocatingMachine.model_validate(body))
+    assert isinstance(polygon, ReciprocatingMachine)
+    return polygon
 
 
 def test_the_largest_mass_is_the_smallest_that_a_limit_allows() -> None:
-    found = limited()
-    radius = found.webs[2].radius_m
+    design = limited()
+    radius = design.webs[2].radius_m
     plate = float(_SEGMENT.unbalance(_SEGMENT.most)) / radius
-    assert largest_mass(found) == pytest.approx([4.0, 2.0, plate, 0.0], rel=1e-12)
+    assert largest_mass(design) == pytest.approx([4.0, 2.0, plate, 0.0], rel=1e-12)
     # without an overspeed the force is less
-    slow = with_fields(found, {("overspeed_rpm",): None})
+    slow = with_fields(design, {("overspeed_rpm",): None})
     assert largest_mass(slow)[1] == pytest.approx(2.0 * 1.1**2, rel=1e-12)
     # what a web is limited to by itself, and what cannot be multiplied is no limit
     for most, expected in ((1.0, 1.0), (1e31, 2.0), (None, 2.0)):
-        assert largest_mass(with_fields(found, {("webs", 1, "max_mass_kg"): most}))[1] == pytest.approx(expected)
-    free = with_fields(found, {("webs", 0, "max_mass_kg"): 1.01e30})
+        assert largest_mass(with_fields(design, {("webs", 1, "max_mass_kg"): most}))[1] == pytest.approx(expected)
+    free = with_fields(design, {("webs", 0, "max_mass_kg"): 1.01e30})
     assert largest_mass(free)[0] == np.inf
-    assert largest_mass(with_fields(found, {("webs", 0, "max_mass_kg"): 0.99e30}))[0] == 0.99e30
+    assert largest_mass(with_fields(design, {("webs", 0, "max_mass_kg"): 0.99e30}))[0] == 0.99e30
 
 
 def test_limits_are_told_in_their_own_units() -> None:
-    sizes = {name: each.size.tolist() for name, each in limit_sizes(limited()).items()}
+    sizes = {name: limit_size.size.tolist() for name, limit_size in limit_sizes(limited()).items()}
     assert list(sizes) == ["max_mass", "envelope", "max_centrifugal_force", "sector"]
     assert sizes["max_mass"][:2] == [4.0, 3.0]
     assert sizes["envelope"] == [np.inf, np.inf, pytest.approx(float(_SEGMENT.unbalance(_SEGMENT.most))), np.inf]
     assert sizes["max_centrifugal_force"] == [np.inf, _FORCE, np.inf, np.inf]
     assert sizes["sector"] == [40.0, np.inf, np.inf, np.inf]
     assert float(MACHINE_LIMITS["max_total_mass"].size(limited())) == 9.0
-    units = [each.unit for each in (*WEB_LIMITS.values(), *MACHINE_LIMITS.values())]
+    units = [limit.unit for limit in (*WEB_LIMITS.values(), *MACHINE_LIMITS.values())]
     assert units == ["kg", "(kg m)", "N", "deg", "kg"]
     # what no web states is none
     plain = ReciprocatingMachine.model_validate(machine([throw(0.0, 0.0, [])], [web("a", 0.0, 4.0)]))
@@ -78,20 +78,20 @@ def test_limits_are_told_in_their_own_units() -> None:
 
 
 def test_the_program_has_the_limits_of_the_machine() -> None:
-    found = limits(limited())
-    assert found.radius[:2].tolist() == [0.12, 0.15]
-    assert found.free.tolist() == [False, True, True, True]
+    bounds = limits(limited())
+    assert bounds.radius[:2].tolist() == [0.12, 0.15]
+    assert bounds.free.tolist() == [False, True, True, True]
     centre = np.exp(1j * np.deg2rad([190.0, 0.0, 0.0, 0.0]))
-    np.testing.assert_allclose(found.centre, centre, atol=1e-15)
-    np.testing.assert_allclose(found.half_angle_cos, np.cos(np.deg2rad([40.0, 90.0, 90.0, 90.0])), atol=1e-15)
-    np.testing.assert_allclose(found.half_angle_sin, np.sin(np.deg2rad([40.0, 90.0, 90.0, 90.0])), atol=1e-15)
+    np.testing.assert_allclose(bounds.centre, centre, atol=1e-15)
+    np.testing.assert_allclose(bounds.half_angle_cos, np.cos(np.deg2rad([40.0, 90.0, 90.0, 90.0])), atol=1e-15)
+    np.testing.assert_allclose(bounds.half_angle_sin, np.sin(np.deg2rad([40.0, 90.0, 90.0, 90.0])), atol=1e-15)
     # what is fixed is spent already
-    assert float(found.max_total_mass) == pytest.approx(7.5)
-    assert found.alike is None
+    assert float(bounds.max_total_mass) == pytest.approx(7.5)
+    assert bounds.alike is None
     wide = limits(limited(), (2, 3))
     assert wide.radius.shape == wide.max_mass.shape == wide.centre.shape == wide.free.shape == (2, 3, 4)
     assert wide.max_total_mass.shape == (2, 3)
-    assert np.all(wide.half_angle_sin == found.half_angle_sin)
+    assert np.all(wide.half_angle_sin == bounds.half_angle_sin)
     free = limits(with_fields(limited(), {("webs", 0, "sector"): None}))
     assert np.all(free.centre == 1.0)
     assert np.all(free.half_angle_cos == 0.0)
@@ -109,34 +109,39 @@ def test_columns_of_limits_have_a_leading_axis() -> None:
 
 @pytest.mark.parametrize("near", [True, False])
 def test_a_limit_is_touched_within_a_ten_thousandth_of_it(near: bool) -> None:
-    found = limited()
+    design = limited()
     share = 1.0 - (0.9 if near else 1.1) * TOUCHED
-    mass = share * np.array([4.0, 3.0, float(largest_mass(found)[2]), 9.0 - 3.0 - 4.0 - float(largest_mass(found)[2])])
+    mass = share * np.array(
+        [4.0, 3.0, float(largest_mass(design)[2]), 9.0 - 3.0 - 4.0 - float(largest_mass(design)[2])]
+    )
     for angle in (190.0 + 40.0 * share, 190.0 - 40.0 * share, 190.0 + 40.0 * share - 720.0):
         at = np.array([angle, 0.0, 10.0, 30.0])
-        touched = {name: each.limit.touched(found, mass, at).tolist() for name, each in limit_sizes(found).items()}
+        touched = {
+            name: limit_size.limit.touched(design, mass, at).tolist()
+            for name, limit_size in limit_sizes(design).items()
+        }
         assert touched["max_mass"][:2] == [near, near]
         assert touched["envelope"][2] == near
         assert touched["sector"] == [near, False, False, False]
     force = np.array([0.0, 2.0 * share, 0.0, 0.0])
-    assert limit_sizes(found)["max_centrifugal_force"].limit.touched(found, force, force)[1] == near
+    assert limit_sizes(design)["max_centrifugal_force"].limit.touched(design, force, force)[1] == near
     budget = MACHINE_LIMITS["max_total_mass"]
-    assert bool(budget.touched(found, np.array([9.0 * share, 0.0, 0.0, 0.0]), np.zeros(4))) == near
+    assert bool(budget.touched(design, np.array([9.0 * share, 0.0, 0.0, 0.0]), np.zeros(4))) == near
     # without a mass there is no angle
-    assert not np.any(limit_sizes(found)["sector"].limit.touched(found, np.zeros(4), np.full(4, 230.0)))
+    assert not np.any(limit_sizes(design)["sector"].limit.touched(design, np.zeros(4), np.full(4, 230.0)))
 
 
 def test_prices_are_those_of_the_limit_that_binds_in_its_unit() -> None:
-    found = limited()
+    design = limited()
     prices = ShadowPrices(np.array([8.0, 6.0, 5.0, 4.0]), np.array([9.0, 0.0, 0.0, 0.0]), np.asarray(3.0), np.zeros(0))
-    sizes = limit_sizes(found)
-    radius = found.webs[2].radius_m
+    sizes = limit_sizes(design)
+    radius = design.webs[2].radius_m
     # of the second web the force binds, and not the mass; per newton so many times less
-    assert sizes["max_mass"].limit.price(found, prices)[:2].tolist() == [8.0, 0.0]
-    assert sizes["max_centrifugal_force"].limit.price(found, prices)[1] == pytest.approx(6.0 / (0.15 * _OMEGA**2))
-    assert sizes["envelope"].limit.price(found, prices)[2] == pytest.approx(5.0 / radius)
-    assert sizes["sector"].limit.price(found, prices)[0] == pytest.approx(9.0 * np.pi / 180.0)
-    assert float(MACHINE_LIMITS["max_total_mass"].price(found, prices)) == 3.0
+    assert sizes["max_mass"].limit.price(design, prices)[:2].tolist() == [8.0, 0.0]
+    assert sizes["max_centrifugal_force"].limit.price(design, prices)[1] == pytest.approx(6.0 / (0.15 * _OMEGA**2))
+    assert sizes["envelope"].limit.price(design, prices)[2] == pytest.approx(5.0 / radius)
+    assert sizes["sector"].limit.price(design, prices)[0] == pytest.approx(9.0 * np.pi / 180.0)
+    assert float(MACHINE_LIMITS["max_total_mass"].price(design, prices)) == 3.0
 
 
 def test_webs_without_a_sector_are_free() -> None:

@@ -17,8 +17,8 @@ def _placed(*counterweights: dict[str, Any]) -> AnalyzeRequest:
 
 def _radii(request: AnalyzeRequest) -> dict[str, float]:
     assert isinstance(request.machine, ReciprocatingMachine)
-    webs = [*request.machine.webs, *(one for shaft in request.machine.balance_shafts for one in shaft.webs)]
-    return {one.name: one.counterweight_radius_m for one in webs}
+    webs = [*request.machine.webs, *(plane for shaft in request.machine.balance_shafts for plane in shaft.webs)]
+    return {plane.name: plane.counterweight_radius_m for plane in webs}
 
 
 def test_what_is_on_webs_at_their_radii_stays_as_it_is() -> None:
@@ -27,14 +27,18 @@ def test_what_is_on_webs_at_their_radii_stays_as_it_is() -> None:
 
 
 def test_a_web_takes_the_radius_of_its_counterweight_on_any_shaft() -> None:
-    one, other = {"mass_kg": 1.0, "angle_deg": 10.0}, {"mass_kg": 2.0, "angle_deg": 20.0}
+    counterweight, second_counterweight = {"mass_kg": 1.0, "angle_deg": 10.0}, {"mass_kg": 2.0, "angle_deg": 20.0}
     before = {"a": 0.1, "counterweight 2": 0.2, "c": 0.3}
-    assert _radii(on_webs(_placed({"web": "a", "radius_m": 0.7, **one}, {"web": "c", **other}))) == before | {"a": 0.7}
-    assert _radii(on_webs(_placed({"web": "a", **one}, {"web": "c", "radius_m": 0.8, **other}))) == before | {"c": 0.8}
+    assert _radii(
+        on_webs(_placed({"web": "a", "radius_m": 0.7, **counterweight}, {"web": "c", **second_counterweight}))
+    ) == before | {"a": 0.7}
+    assert _radii(
+        on_webs(_placed({"web": "a", **counterweight}, {"web": "c", "radius_m": 0.8, **second_counterweight}))
+    ) == before | {"c": 0.8}
 
 
 def test_a_plane_of_its_own_is_a_web_with_a_name_that_no_other_has() -> None:
-    found = on_webs(
+    answer = on_webs(
         _placed(
             {"web": "a", "mass_kg": 1.0, "angle_deg": 10.0},
             {"position_m": 0.9, "radius_m": 0.4, "mass_kg": 2.0, "angle_deg": 20.0},
@@ -42,10 +46,14 @@ def test_a_plane_of_its_own_is_a_web_with_a_name_that_no_other_has() -> None:
         )
     )
     names = ["counterweight 2'", "counterweight 3"]
-    assert [one.web for one in found.counterweights] == ["a", *names]
-    assert [(one.name, one.position_m, one.counterweight_radius_m) for one in found.machine.webs[2:]] == [
+    assert [counterweight.web for counterweight in answer.counterweights] == ["a", *names]
+    assert [(plane.name, plane.position_m, plane.counterweight_radius_m) for plane in answer.machine.webs[2:]] == [
         (names[0], 0.9, 0.4),
         (names[1], 1.1, 0.6),
     ]
-    assert _radii(found) == {"a": 0.1, "counterweight 2": 0.2, "c": 0.3, names[0]: 0.4, names[1]: 0.6}
-    assert [(one.mass_kg, one.angle_deg) for one in found.counterweights] == [(1.0, 10.0), (2.0, 20.0), (3.0, 30.0)]
+    assert _radii(answer) == {"a": 0.1, "counterweight 2": 0.2, "c": 0.3, names[0]: 0.4, names[1]: 0.6}
+    assert [(counterweight.mass_kg, counterweight.angle_deg) for counterweight in answer.counterweights] == [
+        (1.0, 10.0),
+        (2.0, 20.0),
+        (3.0, 30.0),
+    ]

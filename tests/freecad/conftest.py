@@ -22,10 +22,10 @@ Run = Callable[..., dict[str, Any]]
 
 @pytest.fixture(scope="session")
 def freecadcmd() -> str:
-    found = find()
-    if found is None:
+    command = find()
+    if command is None:
         pytest.skip(MISSING)
-    return found
+    return command
 
 
 @pytest.fixture
@@ -33,10 +33,10 @@ def run(freecadcmd: str, url: str, tmp_path: Path) -> Run:
     """Run a script of `inside` in FreeCAD; what it found out."""
 
     def ran(script: str, **settings: str) -> dict[str, Any]:
-        found = tmp_path / "found.json"
-        found.unlink(missing_ok=True)
-        settings = {"URL": url, "FOLDER": str(tmp_path), "FOUND": str(found), **settings}
-        done = subprocess.run(
+        path = tmp_path / "found.json"
+        path.unlink(missing_ok=True)
+        settings = {"URL": url, "FOLDER": str(tmp_path), "FOUND": str(path), **settings}
+        process = subprocess.run(
             [freecadcmd, str(INSIDE / "run.py")],
             env=environment_for(tmp_path / "home", INSIDE=str(INSIDE), SCRIPT=script, **settings),
             cwd=tmp_path,
@@ -46,8 +46,8 @@ def run(freecadcmd: str, url: str, tmp_path: Path) -> Run:
             timeout=_WITHIN_S,
             check=False,
         )
-        assert done.returncode == 0, done.stdout[-4000:] + done.stderr[-2000:]
-        told: dict[str, Any] = json.loads(found.read_text())
-        return told
+        assert process.returncode == 0, process.stdout[-4000:] + process.stderr[-2000:]
+        document: dict[str, Any] = json.loads(path.read_text())
+        return document
 
     return ran

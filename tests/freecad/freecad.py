@@ -43,9 +43,9 @@ def environment_for(home: Path, workbench: Path = WORKBENCH, **settings: str) ->
     mods.mkdir(parents=True, exist_ok=True)
     if not (mods / "Counterweight").exists():
         (mods / "Counterweight").symlink_to(workbench)
-    kept = {name: value for name, value in os.environ.items() if name not in _FOREIGN and not name.startswith("XDG_")}
+    fields = {name: value for name, value in os.environ.items() if name not in _FOREIGN and not name.startswith("XDG_")}
     # what it compiles stays out of the repository
-    return {**kept, "HOME": str(home), "PYTHONDONTWRITEBYTECODE": "1", **settings}
+    return {**fields, "HOME": str(home), "PYTHONDONTWRITEBYTECODE": "1", **settings}
 
 
 def main() -> None:

@@ -15,13 +15,13 @@ from tests.freecad.freecad import WORKBENCH, environment_for, packed
 
 
 def test_what_is_exported_is_what_was_drawn(run: Run, tmp_path: Path) -> None:
-    found = run("files")
+    process = run("files")
     # read back by FreeCAD: every mass, and where all of it is
-    assert sorted(found["masses read back"]) == pytest.approx(sorted(found["masses"]), rel=1e-9)
-    assert found["centre apart mm"] < 1e-6
+    assert sorted(process["masses read back"]) == pytest.approx(sorted(process["masses"]), rel=1e-9)
+    assert process["centre apart mm"] < 1e-6
     # drawn twice, by the service and here: mass, static and axial moment
-    scale = max(map(abs, found["weights"]))
-    assert found["of the service"] == pytest.approx(found["weights"], rel=1e-9, abs=1e-9 * scale)
+    scale = max(map(abs, process["weights"]))
+    assert process["of the service"] == pytest.approx(process["weights"], rel=1e-9, abs=1e-9 * scale)
 
     folder = tmp_path / "out"
     outlines = sorted(folder.glob("*.dxf"))
@@ -32,13 +32,13 @@ def test_what_is_exported_is_what_was_drawn(run: Run, tmp_path: Path) -> None:
     assert len(list(folder.glob("counterweight-*.svg"))) == len(outlines)
     with (folder / "bill-of-material.csv").open(newline="") as file:
         bill = list(csv.DictReader(file))
-    assert sum(float(line["mass, kg"]) for line in bill) == pytest.approx(found["weights"][0], rel=1e-9)
+    assert sum(float(line["mass, kg"]) for line in bill) == pytest.approx(process["weights"][0], rel=1e-9)
     assert (folder / "bill-of-material.xlsx").exists()
     assert not (folder / "counterweights.zip").exists()
 
     # what is not the answer's is not sent to a workshop
-    assert "REFUSED" in found["refused"][0]
-    assert found["nothing written"]
+    assert "REFUSED" in process["refused"][0]
+    assert process["nothing written"]
 
 
 DESCRIBED: dict[str, Any] = {
@@ -66,11 +66,11 @@ def batch(freecadcmd: str, workbench: Path, folder: Path, **settings: str) -> "s
     )
 
 
-@pytest.mark.parametrize("made", [lambda _: WORKBENCH, packed], ids=["of a checkout", "packed"])
+@pytest.mark.parametrize("function", [lambda _: WORKBENCH, packed], ids=["of a checkout", "packed"])
 def test_a_shaft_in_and_a_balanced_shaft_out(
-    run: Run, freecadcmd: str, url: str, tmp_path: Path, made: Callable[[Path], Path]
+    run: Run, freecadcmd: str, url: str, tmp_path: Path, function: Callable[[Path], Path]
 ) -> None:
-    workbench = made(tmp_path)
+    workbench = function(tmp_path)
     run("step")
     described = tmp_path / "machine.json"
     described.write_text(json.dumps(DESCRIBED))
@@ -80,13 +80,13 @@ def test_a_shaft_in_and_a_balanced_shaft_out(
         "COUNTERWEIGHT_FOLDER": str(tmp_path / "out"),
         "COUNTERWEIGHT_URL": url,
     }
-    done = batch(freecadcmd, workbench, tmp_path, **settings)
-    assert done.returncode == 0, done.stdout[-3000:]
-    assert "HELD: the solids leave what the service says: peak force " in done.stdout
-    assert "nothing of the shaft is in the way" in done.stdout
+    process = batch(freecadcmd, workbench, tmp_path, **settings)
+    assert process.returncode == 0, process.stdout[-3000:]
+    assert "HELD: the solids leave what the service says: peak force " in process.stdout
+    assert "nothing of the shaft is in the way" in process.stdout
     assert {"balanced.step", "balanced.FCStd"} <= {path.name for path in (tmp_path / "out").iterdir()}
 
     described.write_text(json.dumps({**DESCRIBED, "machine": {**DESCRIBED["machine"], "throws": [{}]}}))
-    done = batch(freecadcmd, workbench, tmp_path, **settings)
-    assert (done.returncode, "throws: the faces show 2, 1 are described" in done.stdout) == (1, True)
-    assert "Traceback" not in done.stdout
+    command = batch(freecadcmd, workbench, tmp_path, **settings)
+    assert (command.returncode, "throws: the faces show 2, 1 are described" in command.stdout) == (1, True)
+    assert "Traceback" not in command.stdout

@@ -21,8 +21,8 @@ OF_FREECAD = {"FreeCAD", "Part", "Import"}
 
 def imports(file: Path) -> set[str]:
     nodes = list(ast.walk(ast.parse(file.read_text())))
-    found = {alias.name.partition(".")[0] for node in nodes if isinstance(node, ast.Import) for alias in node.names}
-    return found | {
+    parts = {alias.name.partition(".")[0] for node in nodes if isinstance(node, ast.Import) for alias in node.names}
+    return parts | {
         str(node.module).partition(".")[0] for node in nodes if isinstance(node, ast.ImportFrom) and not node.level
     }
 
@@ -30,14 +30,14 @@ def imports(file: Path) -> set[str]:
 def client_of(workbench: Path) -> Path:
     """Where a workbench has its client from, in an interpreter that knows nothing else."""
     show = "import freecad.counterweight.asking, freecad.counterweight.counterweight as c; print(c.__file__)"
-    done = subprocess.run(
+    process = subprocess.run(
         [sys.executable, "-I", "-B", "-c", f"import sys; sys.path.insert(0, {str(workbench)!r}); {show}"],
         capture_output=True,
         text=True,
         check=True,
         timeout=60,
     )
-    return Path(done.stdout.strip())
+    return Path(process.stdout.strip())
 
 
 def test_in_a_checkout_the_client_is_that_of_the_examples(tmp_path: Path) -> None:

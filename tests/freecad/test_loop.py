@@ -18,29 +18,33 @@ def columns(table: list[list[Any]]) -> list[dict[str, Any]]:
     ("shaft", "second_deg", "doubtful"), [("native", 180.0, 0), ("part_design", 180.0, 4), ("imported", 117.0, 0)]
 )
 def test_the_solids_leave_what_the_service_says(run: Run, shaft: str, second_deg: float, doubtful: int) -> None:
-    found = run("loop", SHAFT=shaft)
+    process = run("loop", SHAFT=shaft)
 
     # what the faces show is what was drawn: analytic
-    used = columns(found["tables"]["throws"])
+    used = columns(process["tables"]["throws"])
     assert [line["use"] for line in used] == ["yes", "yes"]
-    assert sum("taken for a round web" in line for line in found["doubts"]) == doubtful == len(found["doubts"])
+    assert sum("taken for a round web" in line for line in process["doubts"]) == doubtful == len(process["doubts"])
     assert [line["crank_radius_m"] for line in used] == pytest.approx([0.14, 0.14], rel=1e-12)
     apart = abs(used[1]["crank_angle_deg"] - used[0]["crank_angle_deg"])
     assert min(apart, 360.0 - apart) == pytest.approx(second_deg, abs=1e-9)
     assert used[1]["position_m"] - used[0]["position_m"] == pytest.approx(0.35, rel=1e-12)
-    webs = columns(found["tables"]["webs"])
+    webs = columns(process["tables"]["webs"])
     assert [line["envelope.thickness_m"] for line in webs] == pytest.approx([0.07] * 4, rel=1e-12)
     assert webs[3]["position_m"] - webs[0]["position_m"] == pytest.approx(0.56, rel=1e-12)
 
     # what remains: the service's figure and the solids'
-    assert found["held"], found["words"]
-    assert found["worst"] < 1e-9
-    assert found["status"] == "balanced"
-    answer = json.loads(found["answer"])
+    assert process["held"], process["words"]
+    assert process["worst"] < 1e-9
+    assert process["status"] == "balanced"
+    answer = json.loads(process["answer"])
     assert answer["status"] == "optimal"
-    fitted = {one["web"]: one for one in answer["counterweights"] if one["mass_kg"] > 0}
-    assert fitted.keys() == found["solids"].keys()
-    for web, solid in found["solids"].items():
+    fitted = {
+        counterweight["web"]: counterweight
+        for counterweight in answer["counterweights"]
+        if counterweight["mass_kg"] > 0
+    }
+    assert fitted.keys() == process["solids"].keys()
+    for web, solid in process["solids"].items():
         assert solid["mass_kg"] == pytest.approx(fitted[web]["mass_kg"], rel=1e-9)
         assert solid["unbalance_kg_m"] == pytest.approx(fitted[web]["mass_radius_kg_m"], rel=1e-9)
         assert solid["half_angle_deg"] == pytest.approx(fitted[web]["shape"]["half_angle_deg"], rel=1e-6)

@@ -49,23 +49,23 @@ def polygon(edge: tuple) -> list[complex]:  # type: ignore[type-arg]
 
 @given(PLATES, SHARES)
 def test_the_opening_has_the_unbalance(plate: Plate, share: float) -> None:
-    asked = share * plate.unbalance_kg_m(plate.largest)
-    assert plate.unbalance_kg_m(plate.half(asked)) == pytest.approx(asked, rel=1e-13)
+    portion = share * plate.unbalance_kg_m(plate.largest)
+    assert plate.unbalance_kg_m(plate.half(portion)) == pytest.approx(portion, rel=1e-13)
 
 
 @given(PLATES, st.floats(0.0, 2 * pi))
 def test_the_outline_is_closed(plate: Plate, towards: float) -> None:
     edges = [polygon(edge) for edge in plate.outline(plate.largest, towards)]
-    for one, following in zip(edges, [*edges[1:], edges[0]], strict=True):
-        assert one[-1] == pytest.approx(following[0], abs=1e-12)
+    for single_edge, following in zip(edges, [*edges[1:], edges[0]], strict=True):
+        assert single_edge[-1] == pytest.approx(following[0], abs=1e-12)
 
 
 def test_a_half_disc() -> None:
     plate = Plate("sector", 0.0, 0.3, 0.05, 7850.0)
     # analytic: pi r^2 / 2 and 2 r^3 / 3; segment and sector are the same there
-    for one in (plate, Plate("segment", 0.0, 0.3, 0.05, 7850.0)):
-        assert one.mass_kg(pi / 2) == pytest.approx(7850 * 0.05 * pi * 0.09 / 2)
-        assert one.unbalance_kg_m(pi / 2) == pytest.approx(7850 * 0.05 * 2 * 0.027 / 3)
+    for counterweight in (plate, Plate("segment", 0.0, 0.3, 0.05, 7850.0)):
+        assert counterweight.mass_kg(pi / 2) == pytest.approx(7850 * 0.05 * pi * 0.09 / 2)
+        assert counterweight.unbalance_kg_m(pi / 2) == pytest.approx(7850 * 0.05 * 2 * 0.027 / 3)
 
 
 def test_more_than_fits_is_refused() -> None:
@@ -79,5 +79,5 @@ def test_more_than_fits_is_refused() -> None:
 
 
 def test_an_envelope_is_read_as_the_service_has_it() -> None:
-    said = {"shape": "segment", "outer_radius_m": 0.3, "thickness_m": 0.05, "max_half_angle_deg": 60.0}
-    assert Plate.of(said) == Plate("segment", 0.0, 0.3, 0.05, 7850.0, pytest.approx(pi / 3))
+    fields = {"shape": "segment", "outer_radius_m": 0.3, "thickness_m": 0.05, "max_half_angle_deg": 60.0}
+    assert Plate.of(fields) == Plate("segment", 0.0, 0.3, 0.05, 7850.0, pytest.approx(pi / 3))

@@ -37,7 +37,7 @@ def test_a_shaft_as_drawn_can_be_one() -> None:
 
 
 @pytest.mark.parametrize(
-    ("sizes", "radius", "said"),
+    ("sizes", "radius", "text"),
     [
         (
             Sizes((Piece("Crank", 0.0449, 7.85),), 0.97),
@@ -51,12 +51,12 @@ def test_a_shaft_as_drawn_can_be_one() -> None:
     ],
     ids=["density", "inches by the rod", "inches by the bore", "inches by the mass", "rod too short"],
 )
-def test_what_cannot_be_a_shaft_is_said(sizes: Sizes, radius: float, said: str) -> None:
-    assert any(said in line for line in reasons(sizes, machine(radius, **ROD)))
+def test_what_cannot_be_a_shaft_is_said(sizes: Sizes, radius: float, text: str) -> None:
+    assert any(text in line for line in reasons(sizes, machine(radius, **ROD)))
 
 
 def test_a_crank_that_is_described_otherwise() -> None:
-    found = [{"name": "1", "crank_radius_m": 0.14}, {"name": "2", "crank_radius_m": 0.14}]
-    assert unlike(found, [{"crank_radius_m": 0.1401}, {}]) == []
-    (line,) = unlike(found, [{}, {"crank_radius_m": 0.15}])
+    throws = [{"name": "1", "crank_radius_m": 0.14}, {"name": "2", "crank_radius_m": 0.14}]
+    assert unlike(throws, [{"crank_radius_m": 0.1401}, {}]) == []
+    (line,) = unlike(throws, [{}, {"crank_radius_m": 0.15}])
     assert line == "throw 2: the faces show a crank radius of 140 mm, 150 mm are described"

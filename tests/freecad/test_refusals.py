@@ -4,7 +4,7 @@ from tests.freecad.conftest import Run
 
 
 def test_bad_input_is_said_and_changes_nothing(run: Run) -> None:
-    found = run("refusals")
+    process = run("refusals")
     words = {
         "a box": "no crankshaft: the selected bodies: no outer cylinder is among them",
         "a bar": "no crankshaft: the selected bodies: there is no crank pin",
@@ -16,12 +16,12 @@ def test_bad_input_is_said_and_changes_nothing(run: Run) -> None:
         "a text": "webs!G3: envelope.thickness_m: must be a number, or one with a unit such as '180 mm', not 'thick'",
     }
     for name, begins in words.items():
-        assert found[name]["lines"][0].startswith(begins), found[name]
-        assert found[name]["as it was"], name
-    assert found["status of a text"].startswith("webs!G3")
+        assert process[name]["lines"][0].startswith(begins), process[name]
+        assert process[name]["as it was"], name
+    assert process["status of a text"].startswith("webs!G3")
 
-    assert len(found["drawn"]) == 4
-    assert found["undone"] == []
-    assert found["status when undone"] == "not balanced yet"
-    assert found["verified when redone"]
-    assert found["drawn again"] == found["drawn"]
+    assert len(process["drawn"]) == 4
+    assert process["undone"] == []
+    assert process["status when undone"] == "not balanced yet"
+    assert process["verified when redone"]
+    assert process["drawn again"] == process["drawn"]

@@ -6,17 +6,17 @@ from tests.freecad.conftest import Run
 
 
 def test_the_route_says_what_the_solids_do(run: Run) -> None:
-    for kind, found in run("routes").items():
-        answer, (mass, x, y) = found["answer"], found["own"]
+    for kind, entry in run("routes").items():
+        answer, (mass, x, y) = entry["answer"], entry["own"]
         scale = mass * 0.14
         planes = answer["unbalances"]
         # independent: volume integrals in the frame of the shaft, against tensors in that of the document
         assert answer["rotor"]["mass_kg"] == pytest.approx(mass, rel=1e-12), kind
-        assert sum(one["x_kg_m"] for one in planes) == pytest.approx(x, abs=1e-9 * scale), kind
-        assert sum(one["y_kg_m"] for one in planes) == pytest.approx(y, abs=1e-9 * scale), kind
-        couple = [sum(one["position_m"] * one[f"{axis}_kg_m"] for one in planes) for axis in "xy"]
-        assert couple == pytest.approx(found["own couple"], abs=1e-9 * scale), kind
+        assert sum(plane["x_kg_m"] for plane in planes) == pytest.approx(x, abs=1e-9 * scale), kind
+        assert sum(plane["y_kg_m"] for plane in planes) == pytest.approx(y, abs=1e-9 * scale), kind
+        couple = [sum(plane["position_m"] * plane[f"{axis}_kg_m"] for plane in planes) for axis in "xy"]
+        assert couple == pytest.approx(entry["own couple"], abs=1e-9 * scale), kind
         for name in ("origin_m", "x", "y", "z"):
-            assert found["alone"]["frame"][name] == pytest.approx(answer["frame"][name], abs=1e-9), (kind, name)
-        assert [one["crank_radius_m"] for one in answer["throws"]] == pytest.approx([0.14, 0.14], rel=1e-9)
-        assert not any(one["serious"] for one in answer["doubts"])
+            assert entry["alone"]["frame"][name] == pytest.approx(answer["frame"][name], abs=1e-9), (kind, name)
+        assert [throw["crank_radius_m"] for throw in answer["throws"]] == pytest.approx([0.14, 0.14], rel=1e-9)
+        assert not any(doubt["serious"] for doubt in answer["doubts"])

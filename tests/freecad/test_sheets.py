@@ -24,15 +24,15 @@ TABLES = {
 
 
 def test_the_request_of_tables() -> None:
-    found = from_tables(TABLES)
-    machine = found.body["machine"]
-    assert found.body["objective"] == {"priorities": ["force"]}
+    tables = from_tables(TABLES)
+    machine = tables.body["machine"]
+    assert tables.body["objective"] == {"priorities": ["force"]}
     # the doubtful pin does not count; a spreadsheet made a number of the name
     assert [throw["name"] for throw in machine["throws"]] == ["1", "2"]
     assert machine["throws"][0]["rows"] == [
         {"name": "I", "axis_deg": 0.0, "reciprocating_mass_kg": 270.0, "connecting_rod": {"mass_kg": 86.0}}
     ]
-    assert found.rods == {(1, 0): "Rod 2"}
+    assert tables.rods == {(1, 0): "Rod 2"}
     assert machine["webs"][0]["envelope"] == {"shape": "sector", "outer_radius_m": 0.3, "thickness_m": 0.05}
 
 
@@ -56,7 +56,7 @@ def test_a_field_has_its_cell(pointer: str, where: str) -> None:
 
 
 @pytest.mark.parametrize(
-    ("sheet", "line", "said"),
+    ("sheet", "line", "text"),
     [
         ("rows", ["3", "III", 0.0, 1.0], "rows!4: throw: there is no throw '3' that is used"),
         (
@@ -68,10 +68,10 @@ def test_a_field_has_its_cell(pointer: str, where: str) -> None:
         ("machine", ["machine.kind", "scroll"], "machine: one crankshaft"),
     ],
 )
-def test_what_is_wrong_is_said_at_its_cell(sheet: str, line: list[object], said: str) -> None:
+def test_what_is_wrong_is_said_at_its_cell(sheet: str, line: list[object], text: str) -> None:
     with pytest.raises(Wrong, match=r".") as wrong:
         from_tables({**TABLES, sheet: [*TABLES[sheet], line]})  # type: ignore[dict-item]
-    assert wrong.value.lines[0].startswith(said)
+    assert wrong.value.lines[0].startswith(text)
 
 
 def test_a_machine_without_throws_or_webs() -> None:
@@ -97,8 +97,8 @@ SAID = {
 
 
 def test_what_no_face_shows_is_added_to_what_they_show() -> None:
-    found = from_tables(completed(SHOWN, SAID)).body
-    assert found == {
+    body = from_tables(completed(SHOWN, SAID)).body
+    assert body == {
         "machine": {
             "kind": "reciprocating",
             "speed_rpm": 500,

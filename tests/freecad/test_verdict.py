@@ -48,23 +48,23 @@ def test_the_first_order_is_that_of_the_service(throws: list[dict[str, Any]], ro
     machine = {"kind": "reciprocating", "speed_rpm": 500, "throws": throws, "unbalances": unbalances}
     answer = analyze(AnalyzeRequest.model_validate({"machine": machine, "outputs": ["residual"]}))
     assert answer.residual is not None
-    told = answer.residual.before
+    order = answer.residual.before
     force, moment = first_order(rotor, throws, 500.0, answer.reference_plane_m)
     # what cancels is as exact as what it cancels of
     near = {"rel": 1e-12, "abs": 1e-9 * (force.peak + moment.peak + 1.0)}
-    assert force.peak == pytest.approx(told.force.peak_N, **near)
-    assert force.co_rotating == pytest.approx(told.force.co_rotating_N, **near)
-    assert moment.peak == pytest.approx(told.moment.peak_Nm, **near)
-    assert moment.counter_rotating == pytest.approx(told.moment.counter_rotating_Nm, **near)
+    assert force.peak == pytest.approx(order.force.peak_N, **near)
+    assert force.co_rotating == pytest.approx(order.force.co_rotating_N, **near)
+    assert moment.peak == pytest.approx(order.moment.peak_Nm, **near)
+    assert moment.counter_rotating == pytest.approx(order.moment.counter_rotating_Nm, **near)
 
 
 @given(ROTORS, PLACES, st.floats(0.1, 2.0))
 def test_two_unbalances_are_the_rotor(rotor: Moments, low: float, length: float) -> None:
     static = axial = 0j
-    for one in rotor.as_unbalances("rotor", low, low + length):
-        value = complex(one["x_kg_m"], one["y_kg_m"])
+    for fields in rotor.as_unbalances("rotor", low, low + length):
+        value = complex(fields["x_kg_m"], fields["y_kg_m"])
         static += value
-        axial += one["position_m"] * value
+        axial += fields["position_m"] * value
     # analytic: they were chosen so
     assert static == pytest.approx(rotor.static_kg_m, abs=1e-11)
     assert axial == pytest.approx(rotor.axial_kg_m2, abs=1e-11)
@@ -86,20 +86,20 @@ ANSWER = {
 
 
 def test_the_same_is_held_in_words() -> None:
-    found = verdict(MACHINE, ANSWER, Moments(5.0, 1.0 + 0j, 0j), {"a": Moments(10.0, 1.0 + 0j, 0j)})
-    assert found.held
-    first, *others = found.words()
+    judgement = verdict(MACHINE, ANSWER, Moments(5.0, 1.0 + 0j, 0j), {"a": Moments(10.0, 1.0 + 0j, 0j)})
+    assert judgement.held
+    first, *words = judgement.words()
     assert first == "HELD: the solids leave what the service says: peak force 2 of 2 N, peak moment 0 of 0 N m."
-    assert others[0].startswith("peak force: solids 2 N, service 2 N, without 2 N")
+    assert words[0].startswith("peak force: solids 2 N, service 2 N, without 2 N")
 
 
 def test_what_rounding_leaves_of_nothing_is_no_difference() -> None:
     machine = {**MACHINE, "webs": [{"position_m": 0.1}]}
-    found = verdict(machine, ANSWER, Moments(5.0, 1.0 + 0j, 1e-17 + 0j), {"a": Moments(10.0, 1.0 + 0j, 0j)})
-    assert found.held
+    judgement = verdict(machine, ANSWER, Moments(5.0, 1.0 + 0j, 1e-17 + 0j), {"a": Moments(10.0, 1.0 + 0j, 0j)})
+    assert judgement.held
     # no figure is what rounding leaves
-    assert "e-" not in found.headline
-    assert all("e-" not in line.partition(", difference")[0] for line in found.words())
+    assert "e-" not in judgement.headline
+    assert all("e-" not in line.partition(", difference")[0] for line in judgement.words())
 
 
 @pytest.mark.parametrize(
@@ -112,7 +112,7 @@ def test_what_rounding_leaves_of_nothing_is_no_difference() -> None:
     ],
 )
 def test_a_difference_is_refused(weights: dict[str, Moments], named: float) -> None:
-    found = verdict(MACHINE, ANSWER, Moments(5.0, 1.0 + 0j, 0j), weights)
-    assert not found.held
-    assert found.worst == pytest.approx(named, rel=1e-6)
-    assert "REFUSED" in found.words()[0]
+    judgement = verdict(MACHINE, ANSWER, Moments(5.0, 1.0 + 0j, 0j), weights)
+    assert not judgement.held
+    assert judgement.worst == pytest.approx(named, rel=1e-6)
+    assert "REFUSED" in judgement.words()[0]

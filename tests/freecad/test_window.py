@@ -19,9 +19,9 @@ _QT = {"QTWEBENGINE_DISABLE_SANDBOX": "1"}
 def test_the_commands_of_the_menu(url: str, tmp_path: Path) -> None:
     if shutil.which("xvfb-run") is None or shutil.which("freecad") is None:
         pytest.skip(MISSING)
-    found = tmp_path / "found.json"
-    settings = {"URL": url, "FOLDER": str(tmp_path), "FOUND": str(found), "INSIDE": str(INSIDE), "SCRIPT": "window"}
-    done = subprocess.run(
+    path = tmp_path / "found.json"
+    settings = {"URL": url, "FOLDER": str(tmp_path), "FOUND": str(path), "INSIDE": str(INSIDE), "SCRIPT": "window"}
+    process = subprocess.run(
         ["xvfb-run", "-a", "-s", "-screen 0 1600x1000x24", "freecad", str(INSIDE / "run.py")],
         env=environment_for(tmp_path / "home", **settings, **_QT),
         cwd=tmp_path,
@@ -31,25 +31,25 @@ def test_the_commands_of_the_menu(url: str, tmp_path: Path) -> None:
         timeout=_WITHIN_S,
         check=False,
     )
-    assert done.returncode == 0, done.stdout[-4000:] + done.stderr[-2000:]
-    assert "Traceback" not in done.stdout + done.stderr
-    told = json.loads(found.read_text())
+    assert process.returncode == 0, process.stdout[-4000:] + process.stderr[-2000:]
+    assert "Traceback" not in process.stdout + process.stderr
+    claim = json.loads(path.read_text())
 
-    assert told["workbench"] == "CounterweightWorkbench"
-    assert len(told["commands"]) == 6
+    assert claim["workbench"] == "CounterweightWorkbench"
+    assert len(claim["commands"]) == 6
     # eccentric round webs were found too, and are no pins
-    assert told["ticked"] == [True, True]
-    assert sum("taken for a round web" in line for line in told["shaft"]) == 4
+    assert claim["ticked"] == [True, True]
+    assert sum("taken for a round web" in line for line in claim["shaft"]) == 4
     # mass and sizes are confirmed before anything is asked
-    assert "confirm first: The shaft weighs " in told["without a confirmation"]
-    assert told["shaft"][0] == f"<b>{told['confirmed']}</b>"
-    assert told["confirmed"].endswith("(1 body of 7,850 kg/m3) and is 970 mm long; crank radius 140 mm.")
-    assert len(set(told["icons"])) == 6
+    assert "confirm first: The shaft weighs " in claim["without a confirmation"]
+    assert claim["shaft"][0] == f"<b>{claim['confirmed']}</b>"
+    assert claim["confirmed"].endswith("(1 body of 7,850 kg/m3) and is 970 mm long; crank radius 140 mm.")
+    assert len(set(claim["icons"])) == 6
     # what is missing is said at its cell, what was drawn in words
-    assert "rows!2 (/machine/throws/0/rows/0/reciprocating_mass_kg): this field is required" in told["without a speed"]
-    assert told["status"] == "balanced"
-    assert "HELD: the solids leave what the service says" in told["report"]
-    assert told["verdict"][0].startswith("<b>HELD: the solids leave what the service says: peak force ")
-    assert "nothing is in the way of the counterweights" in told["report"]
+    assert "rows!2 (/machine/throws/0/rows/0/reciprocating_mass_kg): this field is required" in claim["without a speed"]
+    assert claim["status"] == "balanced"
+    assert "HELD: the solids leave what the service says" in claim["report"]
+    assert claim["verdict"][0].startswith("<b>HELD: the solids leave what the service says: peak force ")
+    assert "nothing is in the way of the counterweights" in claim["report"]
     for name in ("shaft.png", "view.png", "window.png"):
         assert (tmp_path / name).read_bytes().startswith(b"\x89PNG")

@@ -24,12 +24,12 @@ def main() -> int:
     chosen = [case for case in all_cases() if fnmatch(case.name, arguments.only)]
     if not chosen:
         parser.error(f"no case is named {arguments.only}")
-    known = {} if arguments.no_reference else stored.read()
-    missing = [case.name for case in chosen if stored.digest(case.body) not in known]
+    content = {} if arguments.no_reference else stored.read()
+    missing = [case.name for case in chosen if stored.digest(case.body) not in content]
     if missing and not arguments.no_reference:
         parser.error(f"no reference for {', '.join(missing)}: --write-reference first")
     warm_up(chosen)
-    verdicts = [run(case, known.get(stored.digest(case.body))) for case in chosen]
+    verdicts = [run(case, content.get(stored.digest(case.body))) for case in chosen]
     summary(verdicts, Console())
     return int(any(verdict.faults for verdict in verdicts))
 

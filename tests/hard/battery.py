@@ -82,8 +82,8 @@ def _worst(verdicts: list[Verdict]) -> Table:
     def worst(chosen: list[Verdict], value: Callable[[Verdict], float]) -> tuple[str, str]:
         if not chosen:
             return "", ""
-        one = max(chosen, key=value)
-        return f"{value(one):.1e}", escape(one.case.name)
+        verdict = max(chosen, key=value)
+        return f"{value(verdict):.1e}", escape(verdict.case.name)
 
     ordinary = [verdict for verdict in verdicts if verdict.case.ordinary]
     for name, value in _WORST:

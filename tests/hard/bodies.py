@@ -50,8 +50,8 @@ def tried(number: int, seed: int = 0, feature: str | None = None) -> str:
     if feature is not None:
         return strictly(lambda: checked(drawn(number, seed, feature)))
     rng = random.Random(f"{seed}/{number}")
-    asked = body(rng)
-    return strictly(lambda: _computed(asked, number % 20, rng))
+    request = body(rng)
+    return strictly(lambda: _computed(request, number % 20, rng))
 
 
 def drawn(number: int, seed: int, feature: str) -> Body:
@@ -68,38 +68,38 @@ def strictly(compute: Callable[[], str]) -> str:
     Exception
         whatever it raises, and every warning; AssertionError for a fault that the optimiser logs.
     """
-    with warnings.catch_warnings(), faults.error_log() as found:
+    with warnings.catch_warnings(), faults.error_log() as error_log:
         warnings.simplefilter("error")
         try:
             became = compute()
         except (InvalidRequest, MissingInput, OutOfRange) as refused:
             became = f"refused: {type(refused).__name__}"
-    assert not found, found
+    assert not error_log, error_log
     return became
 
 
-def checked(asked: Body) -> str:
+def checked(request: Body) -> str:
     """Status of the answer to a body; no claim of it is refuted."""
-    if "parts" in asked:
-        return _finite(match(check(MatchRequest, asked)))
-    answer = optimize(check(OptimizeRequest, asked))
-    became, refuted = _finite(answer), broken(asked, json.loads(answer.model_dump_json()))
+    if "parts" in request:
+        return _finite(match(check(MatchRequest, request)))
+    answer = optimize(check(OptimizeRequest, request))
+    became, refuted = _finite(answer), broken(request, json.loads(answer.model_dump_json()))
     assert not refuted, refuted
     return became
 
 
-def _computed(asked: Body, kind: int, rng: random.Random) -> str:
+def _computed(payload: Body, kind: int, rng: random.Random) -> str:
     if kind < _PARETO:
-        return _finite(pareto(check(ParetoRequest, asked | {"points": 3})))
+        return _finite(pareto(check(ParetoRequest, payload | {"points": 3})))
     if kind < _PARETO + _SWEEP:
         axis = {"path": "/machine/speed_rpm", "values": [rng.uniform(1, 1e4) for _ in range(rng.randint(1, 3))]}
-        request = check(SweepRequest, {"base": asked, "axes": [axis]})
+        request = check(SweepRequest, {"base": payload, "axes": [axis]})
         rows = run_chunk(request.model_dump_json().encode(), 0, request.total).to_pylist()
         return "sweep " + " ".join(sorted({row["status"] for row in rows}))
     if kind < _PARETO + _SWEEP + _ANALYZE:
-        analyze(check(AnalyzeRequest, {"machine": asked["machine"]}))
+        analyze(check(AnalyzeRequest, {"machine": payload["machine"]}))
         return "analyzed"
-    return _finite(optimize(check(OptimizeRequest, asked)))
+    return _finite(optimize(check(OptimizeRequest, payload)))
 
 
 def _finite(answer: Any) -> str:
@@ -126,16 +126,18 @@ def main() -> int:
     parser.add_argument("--start", type=int, default=0)
     parser.add_argument("--seed", type=int, default=0)
     parser.add_argument("--only", choices=["plain", *FEATURES], help="no others")
-    given = parser.parse_args()
+    arguments = parser.parse_args()
     became: collections.Counter[str] = collections.Counter()
     slowest = (0.0, "")
-    for number, feature in itertools.chain.from_iterable(map(_asked, range(given.start, given.start + given.count))):
-        if given.only not in (None, feature or "plain"):
+    for number, feature in itertools.chain.from_iterable(
+        map(_variants, range(arguments.start, arguments.start + arguments.count))
+    ):
+        if arguments.only not in (None, feature or "plain"):
             continue
-        name = f"{feature or 'plain'} body {number} of seed {given.seed}"
+        name = f"{feature or 'plain'} body {number} of seed {arguments.seed}"
         began = time.process_time()
         try:
-            became[f"{feature or 'plain'}: {tried(number, given.seed, feature)}"] += 1
+            became[f"{feature or 'plain'}: {tried(number, arguments.seed, feature)}"] += 1
         except Exception:
             became[_RAISED] += 1
             print(f"{name}:")
@@ -147,7 +149,7 @@ def main() -> int:
     return min(became[_RAISED], 1)
 
 
-def _asked(number: int) -> Iterator[tuple[int, str | None]]:
+def _variants(number: int) -> Iterator[tuple[int, str | None]]:
     """A body as it is drawn, and the same with one feature after the other."""
     yield number, None
     yield number, list(FEATURES)[number % len(FEATURES)]

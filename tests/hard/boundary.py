@@ -40,7 +40,7 @@ _GAP = 1.01e-6
 
 
 @dataclass(frozen=True)
-class Asked:
+class Rung:
     """One answer."""
 
     distance: float
@@ -58,7 +58,7 @@ class Ladder:
     place: str
     ceilings: Mapping[str, float]
     yardstick: float
-    asked: Sequence[Asked]
+    rungs: Sequence[Rung]
     faults: Sequence[str] = field(default_factory=list)
 
 
@@ -113,8 +113,8 @@ def ladders(rng: np.random.Generator, distances: Sequence[float] = DISTANCES) ->
         peaks = _peaks(place, request, limited, without)
         ceilings = {FIELDS[name]: peak * scene.omega_squared for name, peak in peaks.items()}
         if all(ceiling > 0 for ceiling in ceilings.values()):
-            asked = [_ask(body, ceilings, distance) for distance in distances]
-            yield Ladder(place, ceilings, size, asked, list(faults(asked, size)))
+            rungs = [_ask(body, ceilings, distance) for distance in distances]
+            yield Ladder(place, ceilings, size, rungs, list(faults(rungs, size)))
 
 
 def _peaks(place: str, request: OptimizeRequest, limited: Sequence[Response], without: object) -> dict[str, float]:
@@ -136,7 +136,7 @@ def _peaks(place: str, request: OptimizeRequest, limited: Sequence[Response], wi
     return {name: peak * least.objective for name, peak in rest.items()}
 
 
-def _ask(body: Body, ceilings: Mapping[str, float], distance: float) -> Asked:
+def _ask(body: Body, ceilings: Mapping[str, float], distance: float) -> Rung:
     put = {name: ceiling * (1.0 + distance) for name, ceiling in ceilings.items()}
     whole = {**body, "objective": {**body["objective"], **put}}
     began = time.process_time()
@@ -144,14 +144,14 @@ def _ask(body: Body, ceilings: Mapping[str, float], distance: float) -> Asked:
     cpu_s = time.process_time() - began
     proof = answer.certificate
     if proof is None:
-        return Asked(distance, whole, answer.status, np.nan, "", cpu_s)
-    return Asked(distance, whole, answer.status, proof.objective, proof.method, cpu_s)
+        return Rung(distance, whole, answer.status, np.nan, "", cpu_s)
+    return Rung(distance, whole, answer.status, proof.objective, proof.method, cpu_s)
 
 
-def faults(asked: Sequence[Asked], size: float) -> Iterator[str]:
+def faults(rungs: Sequence[Rung], size: float) -> Iterator[str]:
     """Jumps: an objective that grows, or a ceiling that gets out of reach, as the ceilings are raised."""
-    for at, lower in enumerate(asked):
-        for higher in asked[at + 1 :]:
+    for at, lower in enumerate(rungs):
+        for higher in rungs[at + 1 :]:
             if np.isnan(lower.objective):
                 continue
             step = f"from {lower.distance:g} to {higher.distance:g}"
@@ -167,29 +167,32 @@ def faults(asked: Sequence[Asked], size: float) -> Iterator[str]:
 
 def run(count: int, seed: int, distances: Sequence[float] = DISTANCES) -> list[Ladder]:
     """The ladders of some machines; a machine depends on its own number alone."""
-    return [each for n in range(count) for each in ladders(np.random.default_rng((seed, n)), distances)]
+    return [ladder for n in range(count) for ladder in ladders(np.random.default_rng((seed, n)), distances)]
 
 
-def summary(found: Sequence[Ladder], console: Console) -> None:
+def summary(value: Sequence[Ladder], console: Console) -> None:
     table = Table("place", "answers", "optimal", "infeasible", "inaccurate", "near", "of them inaccurate", "jumps", "s")
     for place in (*PLACES, "all"):
-        chosen = [each for each in found if place in (each.place, "all")]
-        asked = [one for each in chosen for one in each.asked]
-        near = [one for one in asked if abs(one.distance) <= NEAR]
-        statuses, undecided = Counter(one.status for one in asked), Counter(one.status for one in near)["inaccurate"]
+        chosen = [ladder for ladder in value if place in (ladder.place, "all")]
+        rungs = [rung for ladder in chosen for rung in ladder.rungs]
+        near = [rung for rung in rungs if abs(rung.distance) <= NEAR]
+        statuses, undecided = (
+            Counter(rung.status for rung in rungs),
+            Counter(rung.status for rung in near)["inaccurate"],
+        )
         table.add_row(
             place,
-            str(len(asked)),
+            str(len(rungs)),
             *(str(statuses[name]) for name in ("optimal", "infeasible", "inaccurate")),
             str(len(near)),
             f"{undecided} ({undecided / max(len(near), 1):.2%})",
-            str(sum(bool(each.faults) for each in chosen)),
-            f"{max((one.cpu_s for one in asked), default=0.0):.2f}",
+            str(sum(bool(ladder.faults) for ladder in chosen)),
+            f"{max((rung.cpu_s for rung in rungs), default=0.0):.2f}",
         )
     console.print(table)
-    asked = [one for each in found for one in each.asked]
-    console.print(dict(Counter(one.method or one.status for one in asked).most_common()))
-    slow = sorted((one.cpu_s for one in asked), reverse=True)
+    rungs = [rung for ladder in value for rung in ladder.rungs]
+    console.print(dict(Counter(rung.method or rung.status for rung in rungs).most_common()))
+    slow = sorted((rung.cpu_s for rung in rungs), reverse=True)
     console.print(
         f"CPU time of an answer: {sum(t > 1 for t in slow)} above 1 s, {sum(t > 0.3 for t in slow)} above 0.3 s"
     )
@@ -202,18 +205,24 @@ def main() -> int:
     parser.add_argument("--show", type=int, default=0, metavar="N", help="requests that are inaccurate or jump, whole")
     arguments = parser.parse_args()
     console = Console()
-    found = run(arguments.count, arguments.seed)
-    summary(found, console)
-    for each in [each for each in found if each.faults][: arguments.show]:
-        print(each.place, each.ceilings, *each.faults, *(json.dumps(one.body) for one in each.asked[:1]), sep="\n  ")
-        for one in each.asked:
-            print(f"    {one.distance:8.0e} {one.status:10} {one.objective:.12g} {one.method}")
-    bad = [one for each in found for one in each.asked if one.status == "inaccurate"]
-    for one in bad[: arguments.show]:
-        print(one.distance, one.method, json.dumps(one.body))
-    near = [one for each in found for one in each.asked if abs(one.distance) <= NEAR]
-    share = sum(one.status == "inaccurate" for one in near) / max(len(near), 1)
-    return int(share > 1e-3 or any(each.faults for each in found))
+    ladders = run(arguments.count, arguments.seed)
+    summary(ladders, console)
+    for ladder in [ladder for ladder in ladders if ladder.faults][: arguments.show]:
+        print(
+            ladder.place,
+            ladder.ceilings,
+            *ladder.faults,
+            *(json.dumps(rung.body) for rung in ladder.rungs[:1]),
+            sep="\n  ",
+        )
+        for rung in ladder.rungs:
+            print(f"    {rung.distance:8.0e} {rung.status:10} {rung.objective:.12g} {rung.method}")
+    bad = [rung for ladder in ladders for rung in ladder.rungs if rung.status == "inaccurate"]
+    for rung in bad[: arguments.show]:
+        print(rung.distance, rung.method, json.dumps(rung.body))
+    near = [rung for ladder in ladders for rung in ladder.rungs if abs(rung.distance) <= NEAR]
+    share = sum(rung.status == "inaccurate" for rung in near) / max(len(near), 1)
+    return int(share > 1e-3 or any(ladder.faults for ladder in ladders))
 
 
 if __name__ == "__main__":

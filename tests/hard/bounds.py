@@ -11,30 +11,30 @@ from tests.hard.interior import ONE, ZERO, Number, Vector, mp
 from tests.hard.program import Goal, Machine, Web
 
 
-def objective_bound(data: Machine, asked: Goal, y: list[Any], p: list[Any], lam: Vector) -> Number:
+def objective_bound(data: Machine, goal: Goal, y: list[Any], p: list[Any], lam: Vector) -> Number:
     """No counterweights within the limits and ceilings have a smaller objective than this, per omega^2."""
     total = sum(lam, ZERO)
     y, p, lam = [v / total for v in y], [v / total for v in p], [v / total for v in lam]
-    constant, slope = _below(data, asked, y, p, lam)
+    constant, slope = _below(data, goal, y, p, lam)
     return constant + _least(data, slope, ZERO)
 
 
-def mass_bound(data: Machine, asked: Goal, y: list[Any], p: list[Any], lam: Vector, target: Number) -> Number:
+def mass_bound(data: Machine, goal: Goal, y: list[Any], p: list[Any], lam: Vector, target: Number) -> Number:
     """None of them with an objective of at most ``target`` weigh less than this; multipliers in kg per objective."""
-    constant, slope = _below(data, asked, y, p, lam)
+    constant, slope = _below(data, goal, y, p, lam)
     return constant - sum(lam, ZERO) * target + _least(data, slope, ONE)
 
 
-def _below(data: Machine, asked: Goal, y: list[Any], p: list[Any], lam: Vector) -> tuple[Number, Vector]:
+def _below(data: Machine, goal: Goal, y: list[Any], p: list[Any], lam: Vector) -> tuple[Number, Vector]:
     """The affine function const + sum_k Re(conj(w_k) u_k)."""
     co = (data.baseline.force[0], data.baseline.moment[0])
-    constant = sum((a * b for a, b in zip(lam, asked.floors, strict=True)), ZERO)
+    constant = sum((a * b for a, b in zip(lam, goal.floors, strict=True)), ZERO)
     slope = [mp.mpc(0)] * len(data.webs)
-    for term, v in zip(asked.terms, y, strict=True):
+    for term, v in zip(goal.terms, y, strict=True):
         v = v if abs(v) <= lam[term.row] else v * lam[term.row] / abs(v)
         constant += mp.re(mp.conj(v) * (term.constant + term.share * co[term.response]))
         slope = [s + term.share * _arm(web, term.response) * v for s, web in zip(slope, data.webs, strict=True)]
-    for (response, cap), v in zip(asked.ceilings, p, strict=True):
+    for (response, cap), v in zip(goal.ceilings, p, strict=True):
         constant += mp.re(mp.conj(v) * co[response]) - abs(v) * cap
         slope = [s + _arm(web, response) * v for s, web in zip(slope, data.webs, strict=True)]
     return constant, slope

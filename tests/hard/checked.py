@@ -35,10 +35,10 @@ class Tally:
             self.verdicts["exception", ""] += 1
             return
         start = time.process_time()
-        found = checker().verify(body, answer)
+        verdict = checker().verify(body, answer)
         self.seconds.append(time.process_time() - start)
-        self.verdicts[answer["status"], found["verdict"]] += 1
-        claims = [one for one in found["claims"] if one["verdict"] == "broken"]
+        self.verdicts[answer["status"], verdict["verdict"]] += 1
+        claims = [claim for claim in verdict["claims"] if claim["verdict"] == "broken"]
         if claims:
             self._fault(name, str(claims), body)
 

@@ -23,23 +23,25 @@ def faults(limit: float) -> list[str]:
     """What is wrong with the answer under one limit, kg."""
     body = issued(limit)
     answer = optimize(OptimizeRequest.model_validate(body))
-    proof, found = answer.certificate, broken(body, answer.model_dump(mode="json"))
+    proof, claims = answer.certificate, broken(body, answer.model_dump(mode="json"))
     if answer.status != "optimal":
-        found.append(f"{answer.status}: {answer.status_reason}")
+        claims.append(f"{answer.status}: {answer.status_reason}")
     elif not SMALLEST * (1 - 1e-9) <= proof.lower_bound <= SMALLEST:
-        found.append(f"bound {proof.lower_bound!r}")
+        claims.append(f"bound {proof.lower_bound!r}")
     elif not SMALLEST * (1 - 1e-12) <= proof.objective <= SMALLEST + 1.1e-5:
-        found.append(f"objective {proof.objective!r}")
-    return found
+        claims.append(f"objective {proof.objective!r}")
+    return claims
 
 
 def main() -> int:
     parser = argparse.ArgumentParser(prog="python -m tests.hard.far_limits", description=__doc__)
     parser.add_argument("--count", type=int, default=1000, help="limits")
     begun, count = time.process_time(), parser.parse_args().count
-    wrong = {limit: told for limit in np.geomspace(1e3, 1e300, count).tolist() if (told := faults(limit))}
-    for limit, told in wrong.items():
-        print(f"{limit!r} kg: {told}")
+    wrong = {
+        limit: wrong_faults for limit in np.geomspace(1e3, 1e300, count).tolist() if (wrong_faults := faults(limit))
+    }
+    for limit, wrong_faults in wrong.items():
+        print(f"{limit!r} kg: {wrong_faults}")
     print(f"{count} limits, {len(wrong)} wrong, {time.process_time() - begun:.0f} s of CPU")
     return int(bool(wrong))
 

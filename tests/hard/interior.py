@@ -169,12 +169,12 @@ class _Systems:
         rows = len(blocks[0].coupling)
         self.factors, self.through = [], []
         schur = [[ZERO] * rows for _ in range(rows)]
-        each = iter(scalings)
+        actual_scalings = iter(scalings)
         for block in blocks:
             n = len(block.cost)
             hessian = [[ZERO] * n for _ in range(n)]
             for cone in block.cones:
-                scaling = next(each)
+                scaling = next(actual_scalings)
                 for j in range(n):
                     column = [row[j] for row in cone.G]
                     if any(column):

@@ -50,14 +50,14 @@ def judge(case: Case, answer: OptimizeAnswer, expected: Reference | None) -> Ver
     for path, value in _numbers(answer.model_dump(), ""):
         verdict.demand(math.isfinite(value), f"{path} is {value}")
     data = machine(case.body)
-    asked = goal(case.body, data)
+    objective = goal(case.body, data)
     if expected is not None:
-        wanted = "optimal" if expected.feasible else "infeasible"
-        verdict.demand(answer.status == wanted, f"{answer.status}, must be {wanted}")
+        text = "optimal" if expected.feasible else "infeasible"
+        verdict.demand(answer.status == text, f"{answer.status}, must be {text}")
     if answer.status == "infeasible":
-        _judge_infeasible(verdict, answer, data, asked, expected)
+        _judge_infeasible(verdict, answer, data, objective, expected)
     else:
-        _judge_counterweights(verdict, answer, data, asked, expected)
+        _judge_counterweights(verdict, answer, data, objective, expected)
     return verdict
 
 
@@ -87,8 +87,8 @@ def _sizes(data: Machine, u: list[Any]) -> tuple[Number, Number]:
     return force, moment
 
 
-def _weights(asked: Goal) -> tuple[Number, Number]:
-    return tuple(max((abs(t.share) for t in asked.terms if t.response == r), default=ZERO) for r in (0, 1))
+def _weights(objective: Goal) -> tuple[Number, Number]:
+    return tuple(max((abs(t.share) for t in objective.terms if t.response == r), default=ZERO) for r in (0, 1))
 
 
 def _peaks(pair: Pair) -> tuple[Number, Number]:
@@ -96,44 +96,47 @@ def _peaks(pair: Pair) -> tuple[Number, Number]:
 
 
 def _judge_counterweights(
-    verdict: Verdict, answer: OptimizeAnswer, data: Machine, asked: Goal, expected: Reference | None
+    verdict: Verdict, answer: OptimizeAnswer, data: Machine, objective: Goal, expected: Reference | None
 ) -> None:
     case, certificate, square = verdict.case, answer.certificate, data.omega_squared
     assert certificate is not None
     assert answer.residual.after is not None
-    asked_gap = case.body.get("accuracy", {}).get("relative_gap", 1e-6)
+    relative_gap = case.body.get("accuracy", {}).get("relative_gap", 1e-6)
     verdict.method, verdict.relative_gap = certificate.method, certificate.relative_gap
     verdict.mass_gap = certificate.mass_relative_gap or 0.0
     verdict.demand(
-        certificate.relative_gap <= asked_gap, f"certified gap {certificate.relative_gap:.2e}, asked {asked_gap:g}"
+        certificate.relative_gap <= relative_gap,
+        f"certified gap {certificate.relative_gap:.2e}, asked {relative_gap:g}",
     )
     verdict.demand(verdict.mass_gap <= MASS_GAP, f"certified gap of the mass {verdict.mass_gap:.2e}")
 
     u = _unbalance(data, answer.counterweights)
-    _judge_limits(verdict, answer, data, asked, u)
+    _judge_limits(verdict, answer, data, objective, u)
     after = data.after(u)
     sizes = [size * square for size in _sizes(data, u)]
-    noise = 16 * EPS * sum((w * s for w, s in zip(_weights(asked), sizes, strict=True)), ZERO)
-    value = asked.value(after) * square
-    rest = asked.value(data.baseline) * square
+    noise = 16 * EPS * sum((w * s for w, s in zip(_weights(objective), sizes, strict=True)), ZERO)
+    value = objective.value(after) * square
+    rest = objective.value(data.baseline) * square
     verdict.demand(
         abs(value - certificate.objective) <= ROUNDING * rest + noise,
         f"objective {certificate.objective!r} is {mp.nstr(value, 17)}",
     )
     peaks = [peak * square for peak in _peaks(after)]
-    told = (answer.residual.after.force.peak_N, answer.residual.after.moment.peak_Nm)
-    for name, peak, said, size in zip(("force", "moment"), peaks, told, sizes, strict=True):
-        verdict.demand(abs(peak - said) <= 32 * EPS * size, f"peak {name} {said!r} is {mp.nstr(peak, 17)}")
+    pair = (answer.residual.after.force.peak_N, answer.residual.after.moment.peak_Nm)
+    for name, peak, number, size in zip(("force", "moment"), peaks, pair, sizes, strict=True):
+        verdict.demand(abs(peak - number) <= 32 * EPS * size, f"peak {name} {number!r} is {mp.nstr(peak, 17)}")
     if expected is None or not expected.feasible:
         return
     assert expected.objective is not None
     assert expected.relaxed is not None
     noise += expected.noise
     # where there is nothing without counterweights (and a ceiling asks for some), their own effect is the measure
-    rest = rest or sum((w * s for w, s in zip(_weights(asked), sizes, strict=True)), ZERO)
+    rest = rest or sum((w * s for w, s in zip(_weights(objective), sizes, strict=True)), ZERO)
     verdict.objective_error = _share(value - expected.objective, rest, noise)
     above, below = value - expected.objective, expected.relaxed - value
-    verdict.demand(above <= asked_gap * rest * (1 + ROUNDING) + noise, f"objective {verdict.objective_error:.2e} above")
+    verdict.demand(
+        above <= relative_gap * rest * (1 + ROUNDING) + noise, f"objective {verdict.objective_error:.2e} above"
+    )
     verdict.demand(below <= ROUNDING * rest + noise, f"objective {verdict.objective_error:.2e} below the optimum")
     over = certificate.lower_bound - expected.objective
     verdict.demand(over <= ROUNDING * rest + noise, f"lower bound {_share(over, rest, noise):.2e} above the optimum")
@@ -152,7 +155,7 @@ def _share(value: Number, rest: Number, noise: Number) -> float:
     return 0.0 if abs(value) <= noise or rest == 0 else float(value / rest)
 
 
-def _judge_limits(verdict: Verdict, answer: OptimizeAnswer, data: Machine, asked: Goal, u: list[Any]) -> None:
+def _judge_limits(verdict: Verdict, answer: OptimizeAnswer, data: Machine, objective: Goal, u: list[Any]) -> None:
     webs = verdict.case.body["machine"].get("webs", ())
     for weight, web in zip(answer.counterweights, webs, strict=True):
         most = math.inf if web["max_mass_kg"] is None else web["max_mass_kg"]
@@ -160,28 +163,28 @@ def _judge_limits(verdict: Verdict, answer: OptimizeAnswer, data: Machine, asked
         sector = web.get("sector")
         if sector is not None and weight.mass_kg > 0:
             off = abs((weight.angle_deg - sector["centre_deg"] + 180) % 360 - 180)
-            kept = off <= sector["half_angle_deg"] + _ANGLE + 4e-16 * abs(sector["centre_deg"])
-            verdict.demand(kept, f"web {web['name']}: {off!r} degrees from its centre")
+            mask = off <= sector["half_angle_deg"] + _ANGLE + 4e-16 * abs(sector["centre_deg"])
+            verdict.demand(mask, f"web {web['name']}: {off!r} degrees from its centre")
     total = sum(weight.mass_kg for weight in answer.counterweights)
     if data.budget is not None:
         verdict.demand(total <= float(data.budget) * (1 + ROUNDING), f"{total!r} kg exceed the budget")
     if answer.status != "optimal":
         return
-    excess = _excess(data, asked, u)
+    excess = _excess(data, objective, u)
     verdict.demand(excess is None or excess <= CEILING_TOLERANCE * 1.001, f"ceiling exceeded by {mp.nstr(excess, 3)}")
 
 
-def _excess(data: Machine, asked: Goal, u: list[Any]) -> Number | None:
+def _excess(data: Machine, objective: Goal, u: list[Any]) -> Number | None:
     """Largest excess over a ceiling, relative to the larger of itself and what is there without counterweights."""
     after = data.after(u)
     before, now = (data.baseline.force[0], data.baseline.moment[0]), (after.force[0], after.moment[0])
-    found = []
-    for response, cap in asked.ceilings:
+    maxima = []
+    for response, cap in objective.ceilings:
         size = max(abs(cap), abs(before[response]))
         over = abs(now[response]) - cap
         # with nothing to measure by, the rounding of the counterweights themselves
-        found.append(over / size if size else max(ZERO, over - 16 * EPS * _sizes(data, u)[response]))
-    return max(found, default=None)
+        maxima.append(over / size if size else max(ZERO, over - 16 * EPS * _sizes(data, u)[response]))
+    return max(maxima, default=None)
 
 
 def _judge_mass(verdict: Verdict, answer: OptimizeAnswer, expected: Reference, noise: Number) -> None:
@@ -204,7 +207,7 @@ def _judge_mass(verdict: Verdict, answer: OptimizeAnswer, expected: Reference, n
 
 
 def _judge_infeasible(
-    verdict: Verdict, answer: OptimizeAnswer, data: Machine, asked: Goal, expected: Reference | None
+    verdict: Verdict, answer: OptimizeAnswer, data: Machine, objective: Goal, expected: Reference | None
 ) -> None:
     report = answer.infeasibility
     verdict.demand(report is not None and len(report.conflict) > 0, "no conflict is named")
@@ -219,7 +222,7 @@ def _judge_infeasible(
         verdict.demand(bound <= value, f"lower bound {bound!r} above the value {value!r}")
         limit = float(floor * data.omega_squared)
         verdict.demand(value >= limit * (1 - 1e-12), f"smallest peak {value!r} below the floor {limit!r}")
-    excess = _excess(data, asked, _unbalance(data, report.closest.counterweights))
+    excess = _excess(data, objective, _unbalance(data, report.closest.counterweights))
     assert excess is not None
     verdict.objective_error = float(excess - expected.excess)
     verdict.demand(verdict.objective_error <= 1e-6, f"the closest is {verdict.objective_error:.2e} from the closest")

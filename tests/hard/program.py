@@ -78,8 +78,8 @@ def machine(body: Body) -> Machine:
     axial = list(planes)
     if data["kind"] == "scroll":
         axial.append(mp.mpf(data["anti_rotation"]["position_m"]))
-    given = data.get("reference_plane_m")
-    reference = (min(planes) + max(planes)) / 2 if given is None else mp.mpf(given)
+    reference_plane_m = data.get("reference_plane_m")
+    reference = (min(planes) + max(planes)) / 2 if reference_plane_m is None else mp.mpf(reference_plane_m)
     force, moment = [mp.mpc(0), mp.mpc(0)], [mp.mpc(0), mp.mpc(0)]
     noise_force, noise_moment = ZERO, ZERO
     for co, counter, plane in masses:
@@ -110,35 +110,35 @@ def _cancelled(pair: list[Any], noise: Number) -> tuple[Any, Any]:
 
 def _reciprocating(data: Body) -> tuple[list[tuple[Any, Any, Number]], list[Number]]:
     """(co-rotating, counter-rotating, plane) of every mass, and the planes of the throws."""
-    found, planes = [], []
+    values, planes = [], []
     for throw in data["throws"]:
         plane, radius = mp.mpf(throw["position_m"]), mp.mpf(throw["crank_radius_m"])
         crank = unit(throw.get("crank_angle_deg", 0.0))
         planes.append(plane)
-        found.append((mp.mpf(throw.get("rotating_mass_kg", 0.0)) * radius * crank, mp.mpc(0), plane))
+        values.append((mp.mpf(throw.get("rotating_mass_kg", 0.0)) * radius * crank, mp.mpc(0), plane))
         for row in throw.get("rows", ()):
             own = plane + mp.mpf(row.get("offset_m", 0.0))
             rod = row.get("connecting_rod") or {}
             mass, share = mp.mpf(rod.get("mass_kg", 0.0)), mp.mpf(rod.get("reciprocating_share", 1 / 3))
             half = (mp.mpf(row["reciprocating_mass_kg"]) + share * mass) * radius / 2
             axis = unit(row["axis_deg"])
-            found.append((half * crank, half * axis**2 * mp.conj(crank), own))
-            found.append(((1 - share) * mass * radius * crank, mp.mpc(0), own))
-    return found, planes
+            values.append((half * crank, half * axis**2 * mp.conj(crank), own))
+            values.append(((1 - share) * mass * radius * crank, mp.mpc(0), own))
+    return values, planes
 
 
 def _scroll(data: Body) -> tuple[list[tuple[Any, Any, Number]], list[Number]]:
     orbit, plane = mp.mpf(data["orbit_radius_m"]), mp.mpf(data["orbiting_position_m"])
-    found = [(mp.mpc(mp.mpf(data["orbiting_mass_kg"]) * orbit), mp.mpc(0), plane)]
+    values = [(mp.mpc(mp.mpf(data["orbiting_mass_kg"]) * orbit), mp.mpc(0), plane)]
     guide = data["anti_rotation"]
     own = mp.mpf(guide["position_m"])
     if guide["type"] == "oldham":
         half = mp.mpf(guide["mass_kg"]) * orbit / 2
-        found.append((mp.mpc(half), half * unit(guide["axis_deg"]) ** 2, own))
+        values.append((mp.mpc(half), half * unit(guide["axis_deg"]) ** 2, own))
     else:
         pins = guide["count"] * mp.mpf(guide.get("eccentric_mass_kg", 0.0)) * orbit
-        found.append((mp.mpc(pins), mp.mpc(0), own))
-    return found, [plane]
+        values.append((mp.mpc(pins), mp.mpc(0), own))
+    return values, [plane]
 
 
 def _web(web: Body, reference: Number) -> Web:
@@ -187,11 +187,11 @@ class Goal:
 
 def goal(body: Body, machine: Machine) -> Goal:
     """The objective of a request; values are per omega^2."""
-    asked = body.get("objective", {})
-    across = asked.get("direction_weights", {})
+    objective = body.get("objective", {})
+    across = objective.get("direction_weights", {})
     x, y = mp.mpf(across.get("x", 1.0)), mp.mpf(across.get("y", 1.0))
-    moment = asked.get("moment_weight")
-    weights = (mp.mpf(asked.get("force_weight", 1.0)), 1 / machine.span if moment is None else mp.mpf(moment))
+    moment = objective.get("moment_weight")
+    weights = (mp.mpf(objective.get("force_weight", 1.0)), 1 / machine.span if moment is None else mp.mpf(moment))
     terms, floors = [], []
     for response, (weight, pair) in enumerate(zip(weights, _pairs(machine.baseline), strict=True)):
         if weight == 0:
@@ -205,17 +205,17 @@ def goal(body: Body, machine: Machine) -> Goal:
             terms.append(Term(response, p, mp.mpc(0), row))
         else:
             terms += [Term(response, p, q * back, row), Term(response, q, p * back, row)]
-    if asked.get("combine", "sum") == "sum":
+    if objective.get("combine", "sum") == "sum":
         floors = [sum(floors, ZERO)]
         terms = [Term(term.response, term.share, term.constant, 0) for term in terms]
-    return Goal(tuple(terms), tuple(floors), _ceilings(asked, machine), asked.get("least_mass", True))
+    return Goal(tuple(terms), tuple(floors), _ceilings(objective, machine), objective.get("least_mass", True))
 
 
-def _ceilings(asked: Body, machine: Machine) -> tuple[tuple[int, Number], ...]:
-    given = (asked.get("force_ceiling_N"), asked.get("moment_ceiling_Nm"))
+def _ceilings(body: Body, machine: Machine) -> tuple[tuple[int, Number], ...]:
+    pair = (body.get("force_ceiling_N"), body.get("moment_ceiling_Nm"))
     return tuple(
         (response, mp.mpf(ceiling) / machine.omega_squared - abs(pair[1]))
-        for response, (ceiling, pair) in enumerate(zip(given, _pairs(machine.baseline), strict=True))
+        for response, (ceiling, pair) in enumerate(zip(pair, _pairs(machine.baseline), strict=True))
         if ceiling is not None
     )
 

@@ -32,7 +32,7 @@ class Draw:
     def angle(self) -> float:
         return self.rng.choice([0.0, 90.0, 180.0, 120.0, self.rng.uniform(-400.0, 400.0), 1e6 * self.rng.random()])
 
-    def one_of(self, *values: Any) -> Any:
+    def choice(self, *values: Any) -> Any:
         return self.rng.choice(values)
 
 
@@ -42,10 +42,10 @@ def body(rng: random.Random) -> Body:
     machine = _scroll(draw) if rng.random() < 0.15 else _reciprocating(draw)
     machine |= {
         "speed_rpm": draw.size(-9, 9, (100, 3000)),
-        "rotation": draw.one_of("ccw", "cw"),
-        "reference_plane_m": draw.one_of(None, None, draw.place()),
+        "rotation": draw.choice("ccw", "cw"),
+        "reference_plane_m": draw.choice(None, None, draw.place()),
         "webs": [web(draw, k) for k in range(rng.choice([0, 1, 1, 2, 2, 3, 4, 6, 9]))],
-        "max_total_mass_kg": draw.one_of(None, None, draw.size(-12, 15, (1, 50), zero=True)),
+        "max_total_mass_kg": draw.choice(None, None, draw.size(-12, 15, (1, 50), zero=True)),
     }
     return {
         "machine": machine,
@@ -63,9 +63,9 @@ def _throw(draw: Draw) -> Body:
     rows = [
         {
             "axis_deg": draw.angle(),
-            "offset_m": draw.one_of(0.0, draw.place()),
+            "offset_m": draw.choice(0.0, draw.place()),
             "reciprocating_mass_kg": draw.size(-15, 15, (1, 100), zero=True),
-            "connecting_rod": draw.one_of(
+            "connecting_rod": draw.choice(
                 None, {"length_m": None}, {"length_m": min(5 * radius, 1e9), "mass_kg": draw.size(-15, 15, (1, 20))}
             )
             if radius < 1e8
@@ -95,18 +95,18 @@ def _scroll(draw: Draw) -> Body:
         "orbit_radius_m": draw.size(-12, 9, (0.003, 0.01)),
         "orbiting_mass_kg": draw.size(-15, 15, (0.5, 5.0), zero=True),
         "orbiting_position_m": draw.place(),
-        "anti_rotation": draw.one_of(ring, pins) | {"position_m": draw.place()},
+        "anti_rotation": draw.choice(ring, pins) | {"position_m": draw.place()},
     }
 
 
 def web(draw: Draw, number: int) -> Body:
-    half = draw.one_of(1e-9, 1e-3, 30.0, 60.0, 89.999999, 90.0, draw.rng.uniform(1, 90))
+    half = draw.choice(1e-9, 1e-3, 30.0, 60.0, 89.999999, 90.0, draw.rng.uniform(1, 90))
     return {
         "name": str(number),
         "position_m": draw.place(),
         "counterweight_radius_m": draw.size(-12, 9, (0.1, 0.4)),
-        "max_mass_kg": draw.one_of(*NO_LIMIT, draw.size(-12, 15, (1, 60), zero=True), draw.size(-12, 15, (1, 60))),
-        "sector": draw.one_of(None, None, {"centre_deg": draw.angle(), "half_angle_deg": half}),
+        "max_mass_kg": draw.choice(*NO_LIMIT, draw.size(-12, 15, (1, 60), zero=True), draw.size(-12, 15, (1, 60))),
+        "sector": draw.choice(None, None, {"centre_deg": draw.angle(), "half_angle_deg": half}),
     }
 
 
@@ -115,14 +115,14 @@ NO_LIMIT: tuple[float | None, ...] = (None, 1e15, 1e30, 1e300)
 
 
 def _objective(draw: Draw) -> Body:
-    across = draw.one_of(None, None, (draw.size(-12, 12, (0, 2)), 1.0), (1.0, 0.0), (0.0, draw.size(-12, 12, (0, 2))))
-    weights = [draw.size(-30, 30, (0.1, 3.0), zero=True), draw.one_of(None, draw.size(-30, 30, (0.1, 3.0), zero=True))]
-    weights = draw.one_of([1.0, None], weights, [0.0, 1.0], [1.0, 0.0])
+    across = draw.choice(None, None, (draw.size(-12, 12, (0, 2)), 1.0), (1.0, 0.0), (0.0, draw.size(-12, 12, (0, 2))))
+    weights = [draw.size(-30, 30, (0.1, 3.0), zero=True), draw.choice(None, draw.size(-30, 30, (0.1, 3.0), zero=True))]
+    weights = draw.choice([1.0, None], weights, [0.0, 1.0], [1.0, 0.0])
     if weights == [0.0, 0.0]:
         weights = [0.0, 1.0]
-    ceiling = [draw.one_of(None, None, draw.size(-12, 30, (1e2, 1e5), zero=True)) for _ in range(2)]
-    found: Body = {
-        "combine": draw.one_of("sum", "sum", "max"),
+    ceiling = [draw.choice(None, None, draw.size(-12, 30, (1e2, 1e5), zero=True)) for _ in range(2)]
+    fields: Body = {
+        "combine": draw.choice("sum", "sum", "max"),
         "force_weight": weights[0],
         "moment_weight": weights[1],
         "force_ceiling_N": ceiling[0],
@@ -130,5 +130,5 @@ def _objective(draw: Draw) -> Body:
         "least_mass": draw.rng.random() < 0.8,
     }
     if across is not None:
-        found["direction_weights"] = {"x": across[0], "y": across[1]}
-    return found
+        fields["direction_weights"] = {"x": across[0], "y": across[1]}
+    return fields

@@ -20,14 +20,14 @@ def catalogue(draw: Draw, body: Body) -> Body:
     machine["catalogue"] = {
         "masses_kg": None if step else _masses(draw),
         "mass_step_kg": draw.size(-12, 15, (0.1, 10)) if step else None,
-        "angle_step_deg": draw.one_of(0.5, 5, 15, 45, 72, 90, 120, 180),
-        "max_part_numbers": draw.one_of(None, None, 1, 2),
+        "angle_step_deg": draw.choice(0.5, 5, 15, 45, 72, 90, 120, 180),
+        "max_part_numbers": draw.choice(None, None, 1, 2),
     }
-    machine["max_counterweights"] = draw.one_of(None, None, 0, 1, 2, 5)
+    machine["max_counterweights"] = draw.choice(None, None, 0, 1, 2, 5)
     counting: list[Body] = []
     for place in machine["webs"]:
         if step:
-            place["max_mass_kg"] = machine["catalogue"]["mass_step_kg"] * draw.one_of(0, 0.5, 1, 1 + 1e-15, 3.7, 25)
+            place["max_mass_kg"] = machine["catalogue"]["mass_step_kg"] * draw.choice(0, 0.5, 1, 1 + 1e-15, 3.7, 25)
         if rng.random() < 0.2:
             place["catalogue_masses_kg"] = _masses(draw)
         elif step:
@@ -39,7 +39,7 @@ def catalogue(draw: Draw, body: Body) -> Body:
     if counting and 0 < max(place["max_mass_kg"] for place in counting) < machine["catalogue"]["mass_step_kg"]:
         # a step that nothing can carry is refused
         counting[0]["max_mass_kg"] = machine["catalogue"]["mass_step_kg"]
-    body["accuracy"]["time_limit_s"] = draw.one_of(*_TIME_LIMITS)
+    body["accuracy"]["time_limit_s"] = draw.choice(*_TIME_LIMITS)
     return body
 
 
@@ -51,7 +51,7 @@ def _holes(draw: Draw, sector: Body | None) -> list[float]:
     if sector is None:
         return sorted({draw.angle() for _ in range(draw.rng.randint(1, 12))})
     half = sector["half_angle_deg"]
-    return sorted({sector["centre_deg"] + half * draw.one_of(-1, 0, 1, draw.rng.uniform(-1, 1)) for _ in range(4)})
+    return sorted({sector["centre_deg"] + half * draw.choice(-1, 0, 1, draw.rng.uniform(-1, 1)) for _ in range(4)})
 
 
 def plates(draw: Draw, body: Body) -> Body:
@@ -63,19 +63,19 @@ def plates(draw: Draw, body: Body) -> Body:
             del place["counterweight_radius_m"], place["max_mass_kg"]
     if machine["max_total_mass_kg"] is not None:
         goal |= {"force_ceiling_N": None, "moment_ceiling_Nm": None}
-    body["accuracy"]["time_limit_s"] = draw.one_of(*_TIME_LIMITS, 5.0)
+    body["accuracy"]["time_limit_s"] = draw.choice(*_TIME_LIMITS, 5.0)
     return body
 
 
 def _plate(draw: Draw) -> Body:
     outer = draw.size(-4, 3, (0.1, 0.4))
     return {
-        "shape": draw.one_of("sector", "segment"),
+        "shape": draw.choice("sector", "segment"),
         "outer_radius_m": outer,
-        "inner_radius_m": outer * draw.one_of(0.0, 1e-9, draw.rng.uniform(0, 0.999), 0.99, 0.999),
+        "inner_radius_m": outer * draw.choice(0.0, 1e-9, draw.rng.uniform(0, 0.999), 0.99, 0.999),
         "thickness_m": draw.size(-5, 2, (0.01, 0.1)),
         "density_kg_m3": draw.size(0, 5, (2700, 11300)),
-        "max_half_angle_deg": draw.one_of(90.0, 90.0, 89.999999, 0.1, draw.rng.uniform(0.1, 90)),
+        "max_half_angle_deg": draw.choice(90.0, 90.0, 89.999999, 0.1, draw.rng.uniform(0.1, 90)),
     }
 
 
@@ -85,7 +85,7 @@ def shafts(draw: Draw, body: Body) -> Body:
     machine["balance_shafts"] = [
         {
             "name": f"shaft {k}",
-            "speed_ratio": draw.one_of(-2, -1, -1, 1, 2),
+            "speed_ratio": draw.choice(-2, -1, -1, 1, 2),
             "x_m": draw.place(),
             "y_m": draw.place(),
             "webs": [web(draw, 10 * (k + 1) + i) for i in range(rng.randint(1, 3))],
@@ -101,7 +101,7 @@ def shafts(draw: Draw, body: Body) -> Body:
 def axis_ceilings(draw: Draw, body: Body) -> Body:
     """Ceilings of force and moment along x and y."""
     for name in ("force_ceiling_x_N", "force_ceiling_y_N", "moment_ceiling_x_Nm", "moment_ceiling_y_Nm"):
-        body["objective"][name] = draw.one_of(None, None, None, draw.size(-12, 30, (1e2, 1e5), zero=True))
+        body["objective"][name] = draw.choice(None, None, None, draw.size(-12, 30, (1e2, 1e5), zero=True))
     return body
 
 
@@ -124,34 +124,34 @@ def scenarios(draw: Draw, body: Body) -> Body:
 
 def _changeable(machine: Body) -> "list[tuple[str, float]]":
     """Numbers that a scenario may change, by pointer."""
-    found = [("/machine/speed_rpm", machine["speed_rpm"])]
+    values = [("/machine/speed_rpm", machine["speed_rpm"])]
     places = {"/machine": machine, "/machine/anti_rotation": machine.get("anti_rotation", {})}
-    places |= {f"/machine/webs/{k}": {"position_m": each["position_m"]} for k, each in enumerate(machine["webs"])}
+    places |= {f"/machine/webs/{k}": {"position_m": plane["position_m"]} for k, plane in enumerate(machine["webs"])}
     for t, throw in enumerate(machine.get("throws", [])):
         places[f"/machine/throws/{t}"] = throw
         places |= {f"/machine/throws/{t}/rows/{i}": row for i, row in enumerate(throw["rows"])}
     for at, fields in places.items():
         for name, value in fields.items():
             if isinstance(value, float) and name.endswith(("_m", "_kg", "_deg")) and not name.startswith("max_"):
-                found.append((f"{at}/{name}", value))
-    return found
+                values.append((f"{at}/{name}", value))
+    return values
 
 
 def _changed(draw: Draw, path: str, value: float) -> float:
     if path.endswith("_deg"):
         return draw.angle()
     if path.endswith(("position_m", "offset_m", "plane_m")):
-        return draw.one_of(draw.place(), value * (1 + 1e-12))
-    return draw.one_of(value * draw.rng.uniform(0.5, 1.5), value * (1 + 1e-15), draw.size(-9, 9, (0.1, 100)))
+        return draw.choice(draw.place(), value * (1 + 1e-12))
+    return draw.choice(value * draw.rng.uniform(0.5, 1.5), value * (1 + 1e-15), draw.size(-9, 9, (0.1, 100)))
 
 
 def tolerances(draw: Draw, body: Body) -> Body:
     """What may be off, from nothing to a whole counterweight anywhere."""
     body["tolerances"] = {
-        "mass_relative": draw.one_of(0.0, 1e-12, draw.rng.uniform(0, 0.05), draw.rng.random(), 1.0),
-        "angle_deg": draw.one_of(0.0, 1e-9, draw.rng.uniform(0, 5), 180.0, 1e6),
-        "unbalance_kg_m": draw.one_of(0.0, 0.0, draw.size(-15, 15, (1e-4, 1e-2))),
-        "reciprocating_mass_relative": draw.one_of(0.0, 0.0, draw.rng.uniform(0, 0.05), 1.0),
+        "mass_relative": draw.choice(0.0, 1e-12, draw.rng.uniform(0, 0.05), draw.rng.random(), 1.0),
+        "angle_deg": draw.choice(0.0, 1e-9, draw.rng.uniform(0, 5), 180.0, 1e6),
+        "unbalance_kg_m": draw.choice(0.0, 0.0, draw.size(-15, 15, (1e-4, 1e-2))),
+        "reciprocating_mass_relative": draw.choice(0.0, 0.0, draw.rng.uniform(0, 0.05), 1.0),
     }
     return body
 
@@ -168,7 +168,7 @@ def parts(draw: Draw, body: Body) -> Body:
                 del row["reciprocating_mass_kg"]
             rod = row["connecting_rod"]
             if rod is not None and rod["length_m"] is not None:
-                rod["centre_of_mass_m"] = rod["length_m"] * draw.one_of(1e-6, 1 / 3, 1.0, draw.rng.uniform(0.1, 0.9))
+                rod["centre_of_mass_m"] = rod["length_m"] * draw.choice(1e-6, 1 / 3, 1.0, draw.rng.uniform(0.1, 0.9))
     return body
 
 
@@ -180,7 +180,7 @@ def match(draw: Draw, body: Body) -> Body:
     for k in range(rng.randint(0 if rows else 1, 3)):
         places = rng.sample(rows, rng.randint(min(1, len(rows)), len(rows)))
         size = draw.size(-15, 15, (1, 100), zero=True)
-        scatter = draw.one_of(0.0, 1e-15, 0.01, 1.0)
+        scatter = draw.choice(0.0, 1e-15, 0.01, 1.0)
         parts.append(
             {
                 "class": f"class {k}",
@@ -223,5 +223,5 @@ def with_feature(draw: Draw, body: Body, feature: str) -> Body:
     add, of_all = FEATURES[feature]
     if not of_all and body["machine"]["kind"] != "reciprocating":
         return body
-    asked: Any = add(draw, copy.deepcopy(body))
-    return dict(asked)
+    value: Any = add(draw, copy.deepcopy(body))
+    return dict(value)

@@ -59,15 +59,17 @@ def reference(body: Body) -> Reference:
 
 def _reference(body: Body) -> Reference:
     data = machine(body)
-    asked = goal(body, data)
+    actual_goal = goal(body, data)
     square = data.omega_squared
-    rest = asked.value(data.baseline)
-    weight = [max((term.share for term in asked.terms if term.response == r), default=ZERO, key=abs) for r in (0, 1)]
+    rest = actual_goal.value(data.baseline)
+    weight = [
+        max((term.share for term in actual_goal.terms if term.response == r), default=ZERO, key=abs) for r in (0, 1)
+    ]
     noise = 4 * (abs(weight[0]) * data.noise[0] + abs(weight[1]) * data.noise[1])
     common = {"rest": rest * square, "noise": noise * square}
-    program = _Program(data, asked)
+    program = _Program(data, actual_goal)
     excess = None
-    if asked.ceilings:
+    if actual_goal.ceilings:
         excess = program.smallest_excess()
         if excess > DECIDED:
             return Reference(excess, False, **common)
@@ -76,12 +78,12 @@ def _reference(body: Body) -> Reference:
             program = program.relaxed(max(ZERO, excess) + _HAIR)
     objective, u = program.smallest_objective()
     loose = program.relaxed(CEILING_TOLERANCE)
-    relaxed = loose.smallest_objective()[0] if asked.ceilings else objective
+    relaxed = loose.smallest_objective()[0] if actual_goal.ceilings else objective
     mass, mass_relaxed, price = None, None, ZERO
-    if asked.least_mass:
+    if actual_goal.least_mass:
         share = min(OPTIMUM_SHARE, mp.mpf(body.get("accuracy", {}).get("relative_gap", 1e-6)))
         mass, price, u = program.least_mass(objective + share * rest)
-        mass_relaxed = loose.least_mass(objective + share * rest)[0] if asked.ceilings else mass
+        mass_relaxed = loose.least_mass(objective + share * rest)[0] if actual_goal.ceilings else mass
     after = data.after(u)
     return Reference(
         excess,
@@ -104,14 +106,14 @@ def _peak(pair: tuple[Any, Any]) -> Number:
 class _Program:
     """One machine and goal in units of order one."""
 
-    def __init__(self, data: Machine, asked: Goal) -> None:
-        self.data, self.asked = data, asked
+    def __init__(self, data: Machine, objective: Goal) -> None:
+        self.data, self.goal = data, objective
         self.reach = [_least(web.radius * web.max_mass, data.budget, web.radius) for web in data.webs]
         self.used = [k for k, reach in enumerate(self.reach) if reach > 0]
         co = (data.baseline.force[0], data.baseline.moment[0])
         influence = (ONE, max([abs(data.webs[k].arm) for k in self.used], default=ZERO) or ONE)
         call = [abs(c) / i for c, i in zip(co, influence, strict=True)]
-        call += [abs(t.constant / t.share) / influence[t.response] for t in asked.terms if t.share]
+        call += [abs(t.constant / t.share) / influence[t.response] for t in objective.terms if t.share]
         mass_radius = max(call) or max(self.reach, default=ONE) or ONE
         self.units = [mass_radius * i for i in influence]
         self.co = co
@@ -120,23 +122,23 @@ class _Program:
 
     def smallest_excess(self) -> Number:
         """Smallest largest excess over the ceilings, relative to their size."""
-        size = [self._size(ceiling) for ceiling in self.asked.ceilings]
+        size = [self._size(ceiling) for ceiling in self.goal.ceilings]
         terms = tuple(
             Term(response, 1 / s, mp.mpc(0), row)
-            for row, ((response, _), s) in enumerate(zip(self.asked.ceilings, size, strict=True))
+            for row, ((response, _), s) in enumerate(zip(self.goal.ceilings, size, strict=True))
         )
-        floors = tuple(-cap / s for (_, cap), s in zip(self.asked.ceilings, size, strict=True))
+        floors = tuple(-cap / s for (_, cap), s in zip(self.goal.ceilings, size, strict=True))
         value, _ = _Program(self.data, Goal(terms, floors, (), False)).smallest_objective(_HAIR / 1000)
         return value
 
     def relaxed(self, share: Number) -> "_Program":
         """The program with every ceiling raised by a share of its size."""
-        raised = tuple((ceiling[0], ceiling[1] + share * self._size(ceiling)) for ceiling in self.asked.ceilings)
-        return _Program(self.data, Goal(self.asked.terms, self.asked.floors, raised, self.asked.least_mass))
+        raised = tuple((ceiling[0], ceiling[1] + share * self._size(ceiling)) for ceiling in self.goal.ceilings)
+        return _Program(self.data, Goal(self.goal.terms, self.goal.floors, raised, self.goal.least_mass))
 
     def smallest_objective(self, enough: Number = PROVEN) -> tuple[Number, Vector]:
         """The optimum, per omega^2, and counterweights that reach it."""
-        rest, floor = self.asked.value(self.data.baseline), max(self.asked.floors)
+        rest, floor = self.goal.value(self.data.baseline), max(self.goal.floors)
         if not self.used or (self._resting() and rest <= floor):
             return rest, [mp.mpc(0)] * len(self.reach)
         value, _, u = self._solve(None, enough * max(abs(rest), self._unit()))
@@ -144,13 +146,13 @@ class _Program:
 
     def least_mass(self, target: Number) -> tuple[Number, Number, Vector]:
         """Least mass with an objective of at most ``target``, its price in kg per unit of objective, counterweights."""
-        if not self.used or (self._resting() and self.asked.value(self.data.baseline) <= target):
+        if not self.used or (self._resting() and self.goal.value(self.data.baseline) <= target):
             return ZERO, ZERO, [mp.mpc(0)] * len(self.reach)
         return self._solve(target, PROVEN)
 
     def _resting(self) -> bool:
         """Whether no counterweights at all keep the ceilings."""
-        return all(abs(self.co[r]) <= cap for r, cap in self.asked.ceilings)
+        return all(abs(self.co[r]) <= cap for r, cap in self.goal.ceilings)
 
     def _size(self, ceiling: tuple[int, Number]) -> Number:
         """What an excess over a ceiling is measured by."""
@@ -158,35 +160,35 @@ class _Program:
 
     def _unit(self) -> Number:
         """What counterweights can change in the objective."""
-        share = self.asked.value(self.data.baseline) - max(self.asked.floors)
-        return share if share > 0 else max(abs(t.share) * self.units[t.response] for t in self.asked.terms)
+        share = self.goal.value(self.data.baseline) - max(self.goal.floors)
+        return share if share > 0 else max(abs(t.share) * self.units[t.response] for t in self.goal.terms)
 
     # one cone program
 
     def _solve(self, target: Number | None, enough: Number) -> tuple[Number, Number, Vector]:
         """Smallest objective (no target) or least mass, proven to ``enough`` (least mass: relative); price of a row."""
-        data, asked, unit = self.data, self.asked, self._unit()
-        moving = sorted({t.response for t in asked.terms} | {r for r, _ in asked.ceilings})
+        data, objective, unit = self.data, self.goal, self._unit()
+        moving = sorted({t.response for t in objective.terms} | {r for r, _ in objective.ceilings})
         budget = data.budget is not None
         rows = 2 * len(moving) + budget
         mass_unit = max(self.reach[k] / data.webs[k].radius for k in self.used)
         blocks = [self._web_block(k, moving, budget, target is not None, mass_unit) for k in self.used]
-        count = rows + len(asked.terms) + (target is None)
+        count = rows + len(objective.terms) + (target is None)
         shared = Block([ZERO] * count, [[-ONE if i == j else ZERO for j in range(count)] for i in range(rows)], [])
         cones = shared.cones
-        for index, term in enumerate(asked.terms):
+        for index, term in enumerate(objective.terms):
             at = 2 * moving.index(term.response)
             share = term.share * self.units[term.response] / unit
             constant = term.constant / unit
             G = [_row(count, {rows + index: -ONE}), _row(count, {at: -share}), _row(count, {at + 1: -share})]
             cones.append(Cone(G, [ZERO, constant.real, constant.imag]))
-        for response, cap in asked.ceilings:
+        for response, cap in objective.ceilings:
             at = 2 * moving.index(response)
             G = [_row(count, {}), _row(count, {at: -ONE}), _row(count, {at + 1: -ONE})]
             cones.append(Cone(G, [cap / self.units[response], ZERO, ZERO]))
-        base = max(asked.floors)
-        for row, floor in enumerate(asked.floors):
-            entries = {rows + i: ONE for i, term in enumerate(asked.terms) if term.row == row}
+        base = max(objective.floors)
+        for row, floor in enumerate(objective.floors):
+            entries = {rows + i: ONE for i, term in enumerate(objective.terms) if term.row == row}
             head = (base - floor if target is None else target - floor) / unit
             if target is None:
                 entries[count - 1] = -ONE
@@ -210,11 +212,11 @@ class _Program:
             after = data.after(u)
             y, p, lam = self._multipliers(every[-1], unit, unit if target is None else mass_unit)
             if target is None:
-                value, bound = asked.value(after), objective_bound(data, asked, y, p, lam)
+                value, bound = objective.value(after), objective_bound(data, objective, y, p, lam)
                 margin = enough
             else:
                 value = sum((abs(v) / web.radius for v, web in zip(u, data.webs, strict=True)), ZERO)
-                bound = mass_bound(data, asked, y, p, lam, target)
+                bound = mass_bound(data, objective, y, p, lam, target)
                 margin = enough * value
             best.update(value=value, u=u, price=sum(lam, ZERO), gap=value - bound)
             return value - bound <= margin and self._violation(u, after, target) <= _EXACT
@@ -251,12 +253,12 @@ class _Program:
 
     def _multipliers(self, shared: Block, unit: Number, value: Number) -> tuple[list[Any], list[Any], Vector]:
         """Of terms and ceilings (complex) and rows; ``value`` is the unit of what is minimised."""
-        terms, ceilings, rows = len(self.asked.terms), len(self.asked.ceilings), len(self.asked.floors)
+        terms, ceilings, rows = len(self.goal.terms), len(self.goal.ceilings), len(self.goal.floors)
         cones = shared.cones
         y = [-mp.mpc(c.z[1], c.z[2]) * value / unit for c in cones[:terms]]
         p = [
             -mp.mpc(c.z[1], c.z[2]) * value / self.units[r]
-            for c, (r, _) in zip(cones[terms : terms + ceilings], self.asked.ceilings, strict=True)
+            for c, (r, _) in zip(cones[terms : terms + ceilings], self.goal.ceilings, strict=True)
         ]
         lam = [c.z[0] * value / unit for c in cones[terms + ceilings : terms + ceilings + rows]]
         return y, p, lam
@@ -275,10 +277,10 @@ class _Program:
             total = sum((abs(v) / web.radius for v, web in zip(u, self.data.webs, strict=True)), ZERO)
             worst = max(worst, total / self.data.budget - 1)
         co = (after.force[0], after.moment[0])
-        for response, cap in self.asked.ceilings:
+        for response, cap in self.goal.ceilings:
             worst = max(worst, (abs(co[response]) - cap) / self._size((response, cap)))
         if target is not None:
-            worst = max(worst, (self.asked.value(after) - target) / target)
+            worst = max(worst, (self.goal.value(after) - target) / target)
         return worst
 
 

@@ -33,17 +33,17 @@ def read() -> dict[str, Reference]:
 
 def write(cases: Sequence[Case], workers: int = 2) -> list[str]:
     """Bring the file up to date with these cases; what could not be proven, a line for each."""
-    known = {} if not _FILE.exists() else json.loads(_FILE.read_text())
-    missing = {key: case for case in cases if (key := digest(case.body)) not in known}
+    document = {} if not _FILE.exists() else json.loads(_FILE.read_text())
+    missing = {key: case for case in cases if (key := digest(case.body)) not in document}
     unproven = []
     with ProcessPoolExecutor(workers) as executor:
         for (key, case), value in zip(missing.items(), executor.map(_computed, missing.values()), strict=True):
             if isinstance(value, str):
                 unproven.append(f"{case.name}: {value}")
             else:
-                known[key] = value
-    kept = {digest(case.body): case.name for case in cases if digest(case.body) in known}
-    lines = (f"{json.dumps(key)}: {json.dumps({**known[key], 'case': name})}" for key, name in kept.items())
+                document[key] = value
+    names = {digest(case.body): case.name for case in cases if digest(case.body) in document}
+    lines = (f"{json.dumps(key)}: {json.dumps({**document[key], 'case': name})}" for key, name in names.items())
     _FILE.write_text("{\n" + ",\n".join(lines) + "\n}\n")
     return unproven
 

@@ -41,19 +41,19 @@ def main() -> int:
     tried, caught, faults, start = Counter[str](), Counter[str](), 0, time.process_time()
     for body in bodies():
         answer = json.loads(optimize(OptimizeRequest.model_validate(body)).model_dump_json())
-        if (told := checker().verify(body, answer))["verdict"] != "held":
+        if (verdict := checker().verify(body, answer))["verdict"] != "held":
             faults += 1
-            print("not held as it was given:", json.dumps([body, told]))
+            print("not held as it was given:", json.dumps([body, verdict]))
         falsified = [("answer", name, body, wrong) for name, wrong in tampered(answer)]
         falsified += [("limit", name, tighter, answer) for name, tighter in beyond_limits(body, answer)]
-        for where, name, asked, given in falsified:
+        for where, name, fields, table in falsified:
             kind = f"{where}: {'/'.join(part for part in name.split('/') if not part.isdecimal())}"
             tried[kind] += 1
-            if checker().verify(asked, given)["verdict"] == "broken":
+            if checker().verify(fields, table)["verdict"] == "broken":
                 caught[kind] += 1
             else:
                 faults += 1
-                print(f"{kind} was not caught:", json.dumps([asked, given]))
+                print(f"{kind} was not caught:", json.dumps([fields, table]))
             if tried.total() == count:
                 break
         if tried.total() == count:

@@ -45,24 +45,26 @@ def _search(count: int) -> settings:
 
 def _answers(body: Body) -> list[OptimizeAnswer]:
     """One for each gap; each keeps what it promises by itself."""
-    found = []
+    answers = []
     for gap in GAPS:
-        asked = {**body, "accuracy": {"relative_gap": gap}}
-        answer = optimized(asked)
-        found.append(answer)
+        request = {**body, "accuracy": {"relative_gap": gap}}
+        answer = optimized(request)
+        answers.append(answer)
         certificate = answer.certificate
         if certificate is None:
             continue
         rest = certificate.objective_without_counterweights
-        said = json.dumps(asked)
-        assert abs(certificate.gap - (certificate.objective - certificate.lower_bound)) <= 1e-15 * rest, said
+        text = json.dumps(request)
+        assert abs(certificate.gap - (certificate.objective - certificate.lower_bound)) <= 1e-15 * rest, text
         if rest > 0:
-            assert abs(certificate.relative_gap - certificate.gap / rest) <= 1e-15, said
+            assert abs(certificate.relative_gap - certificate.gap / rest) <= 1e-15, text
         reached = certificate.relative_gap <= gap and (certificate.mass_relative_gap or 0.0) <= 1e-4
-        assert answer.status == ("optimal" if reached else "inaccurate") or body["objective"].keys() & _CEILINGS, said
-        faults = [fault for fault in judge(Case("gap", "", asked), answer, None).faults if "certified gap" not in fault]
-        assert not faults, "\n".join([*faults, said])
-    return found
+        assert answer.status == ("optimal" if reached else "inaccurate") or body["objective"].keys() & _CEILINGS, text
+        faults = [
+            fault for fault in judge(Case("gap", "", request), answer, None).faults if "certified gap" not in fault
+        ]
+        assert not faults, "\n".join([*faults, text])
+    return answers
 
 
 _CEILINGS = {"force_ceiling_N", "moment_ceiling_Nm"}
@@ -72,11 +74,11 @@ def _consistent(body: Body, answers: list[OptimizeAnswer]) -> None:
     """No bound is above the objective of another, and no objective further above it than both gaps say."""
     proofs = [answer.certificate for answer in answers]
     assert len({proof is None for proof in proofs}) == 1, json.dumps(body)
-    for one in proofs:
-        for other in proofs:
-            if one is not None and other is not None and not body["objective"].keys() & _CEILINGS:
-                slack = 1e-13 * one.objective_without_counterweights
-                assert one.lower_bound <= other.objective + slack, json.dumps(body)
+    for certificate in proofs:
+        for second_proof in proofs:
+            if certificate is not None and second_proof is not None and not body["objective"].keys() & _CEILINGS:
+                slack = 1e-13 * certificate.objective_without_counterweights
+                assert certificate.lower_bound <= second_proof.objective + slack, json.dumps(body)
 
 
 @_search(24)

@@ -34,10 +34,10 @@ def test_case(case: Case) -> None:
 @pytest.mark.parametrize("case", _SAMPLE, ids=_name)
 def test_stored_reference_is_what_the_reference_computes(case: Case) -> None:
     """Independent: the same numbers again, to the digits that are stored and the gap that is proven."""
-    known, again = _KNOWN[stored.digest(case.body)], reference(case.body)
-    assert known.feasible == again.feasible
+    standard, again = _KNOWN[stored.digest(case.body)], reference(case.body)
+    assert standard.feasible == again.feasible
     for name in ("excess", "objective", "relaxed", "rest", "mass", "mass_relaxed", "force", "moment"):
-        left, right = getattr(known, name), getattr(again, name)
+        left, right = getattr(standard, name), getattr(again, name)
         assert (left is None) == (right is None)
         if left is not None:
             assert abs(left - right) <= 1e-15 * abs(right), name
@@ -73,9 +73,9 @@ def test_what_a_double_cannot_hold_is_called_inaccurate() -> None:
 def test_bounds_hold_where_the_webs_can_hardly_be_told_apart(place: float, limit: float, gap: float) -> None:
     """Slopes that cancel, times a reach of up to 1e12 kg (independent: the 100-digit reference)."""
     webs = [web("a", place, limit), web("b", place + gap, limit)]
-    asked = case("webs/far", "slope times reach", machine(v_twin(), webs))
-    found, expected = optimized(asked.body), reference(asked.body)
-    assert found.certificate.lower_bound <= expected.objective <= found.certificate.objective
-    assert found.certificate.mass_lower_bound_kg <= expected.mass
+    instance = case("webs/far", "slope times reach", machine(v_twin(), webs))
+    answer, expected = optimized(instance.body), reference(instance.body)
+    assert answer.certificate.lower_bound <= expected.objective <= answer.certificate.objective
+    assert answer.certificate.mass_lower_bound_kg <= expected.mass
     # sharp all the same
-    assert expected.objective - found.certificate.lower_bound <= 1e-4 * found.certificate.yardstick
+    assert expected.objective - answer.certificate.lower_bound <= 1e-4 * answer.certificate.yardstick

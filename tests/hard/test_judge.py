@@ -26,12 +26,12 @@ _LIMITED = case(
 _HOPELESS = case("hopeless", "plain", machine([throw(0, 0, [], rotating=3)], [web("a", 0, 1)]), force_ceiling_N=1.0)
 
 
-def _expected(one: Case) -> Reference:
-    return reference(one.body)
+def _expected(instance: Case) -> Reference:
+    return reference(instance.body)
 
 
-def _answer(one: Case) -> OptimizeAnswer:
-    return optimized(one.body)
+def _answer(instance: Case) -> OptimizeAnswer:
+    return optimized(instance.body)
 
 
 def _certificate(answer: OptimizeAnswer, **change: Any) -> OptimizeAnswer:
@@ -67,12 +67,12 @@ _CHANGES: tuple[tuple[str, Case, Callable[[OptimizeAnswer], OptimizeAnswer]], ..
 
 @pytest.mark.parametrize("which", every(4, range(len(_CHANGES))), ids=[fault for fault, _, _ in _CHANGES])
 def test_a_false_claim_is_found_out(which: int) -> None:
-    fault, one, change = _CHANGES[which]
+    fault, instance, change = _CHANGES[which]
     """The change brings the fault, which the answer itself does not have."""
-    expected, answer = _expected(one), _answer(one)
-    assert not judge(one, answer, expected).faults
-    faults = judge(one, change(answer), expected).faults
-    assert any(fault in found for found in faults), faults
+    expected, answer = _expected(instance), _answer(instance)
+    assert not judge(instance, answer, expected).faults
+    faults = judge(instance, change(answer), expected).faults
+    assert any(fault in single_fault for single_fault in faults), faults
 
 
 def test_an_exception_is_a_fault_and_is_printed() -> None:

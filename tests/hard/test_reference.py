@@ -37,13 +37,13 @@ def test_right_angles_are_exact(angle: float) -> None:
 def test_single_row_keeps_half(combine: str) -> None:
     """Analytic: the peak m r omega^2 falls to one half; its counterweight m r/(2 R) less what optima may differ."""
     body = {"machine": machine(single_row(), [web("a", 0.0)], omega=_OMEGA), "objective": {"combine": combine}}
-    found = reference(body)
+    standard = reference(body)
     product = mp.mpf(10.0) * mp.mpf(0.1)
     whole = product * _square(body)
-    assert _close(found.rest, whole)
-    assert _close(found.objective, whole / 2)
-    assert _close(found.mass, (product / 2 - OPTIMUM_SHARE * product) / mp.mpf(0.2))
-    assert _close(found.force, whole / 2 + OPTIMUM_SHARE * whole)
+    assert _close(standard.rest, whole)
+    assert _close(standard.objective, whole / 2)
+    assert _close(standard.mass, (product / 2 - OPTIMUM_SHARE * product) / mp.mpf(0.2))
+    assert _close(standard.force, whole / 2 + OPTIMUM_SHARE * whole)
 
 
 def test_unequal_v90_keeps_half_the_difference() -> None:
@@ -55,8 +55,8 @@ def test_unequal_v90_keeps_half_the_difference() -> None:
 def test_w60_is_cancelled() -> None:
     """Analytic: three equal rows 60 degrees apart turn with the shaft."""
     rows = [row(axis, 10) for axis in (30, 90, 150)]
-    found = reference({"machine": machine([throw(0, 10, rows)], [web("a", 0.0)], omega=_OMEGA)})
-    assert abs(found.objective) <= _TIGHT * found.rest
+    body = reference({"machine": machine([throw(0, 10, rows)], [web("a", 0.0)], omega=_OMEGA)})
+    assert abs(body.objective) <= _TIGHT * body.rest
 
 
 @pytest.mark.parametrize("limit", [0.0, 1e-9, 1.0])
@@ -64,19 +64,19 @@ def test_one_web_that_is_full(limit: float) -> None:
     """Analytic: a rotor of m r less all that the web can carry, at the full mass of the web."""
     body = {"machine": machine([throw(0, 77, [], rotating=8)], [web("a", 0.0, limit)]), "objective": {}}
     body["accuracy"] = {"relative_gap": 1e-12}
-    found = reference(body)
+    standard = reference(body)
     left = mp.mpf(0.1) * 8 - mp.mpf(0.2) * mp.mpf(limit)
-    assert _close(found.objective, left * _square(body))
+    assert _close(standard.objective, left * _square(body))
 
 
 def test_two_planes_cancel_a_rotor() -> None:
     """Analytic: two webs carry the rotor by the lever rule."""
     body = {"machine": machine([throw(0.1, 30, [], rotating=8)], [web("a", -0.25), web("b", 0.5)])}
     body["accuracy"] = {"relative_gap": 1e-12}
-    found = reference(body)
-    assert abs(found.objective) <= _TIGHT * found.rest
+    standard = reference(body)
+    assert abs(standard.objective) <= _TIGHT * standard.rest
     mass = mp.mpf(0.1) * 8 / mp.mpf(0.2)
-    assert abs(found.mass - mass) <= 1e-11 * mass
+    assert abs(standard.mass - mass) <= 1e-11 * mass
 
 
 def test_half_disc_edge() -> None:
@@ -90,9 +90,9 @@ def test_half_disc_edge() -> None:
 def test_sectors_that_point_away(half: float) -> None:
     """Analytic: nothing is gained, so nothing is fitted."""
     webs = [web(str(k), 0.0, 5, 0.2, (0, half)) for k in range(3)]
-    found = reference({"machine": machine([throw(0, 0, [], rotating=4)], webs)})
-    assert found.mass == 0
-    assert _close(found.objective, found.rest)
+    body = reference({"machine": machine([throw(0, 0, [], rotating=4)], webs)})
+    assert body.mass == 0
+    assert _close(body.objective, body.rest)
 
 
 @pytest.mark.parametrize(("factor", "feasible"), [(1 - 1e-9, False), (1 + 1e-9, True), (0.5, False), (2.0, True)])
@@ -101,10 +101,10 @@ def test_ceiling_about_the_floor(factor: float, feasible: bool) -> None:
     body = {"machine": machine(single_row(), [web("a", 0.0)], omega=_OMEGA)}
     floor = mp.mpf(10.0) * mp.mpf(0.1) / 2 * _square(body)
     body["objective"] = {"force_ceiling_N": float(floor * factor)}
-    found = reference(body)
-    assert found.feasible == feasible
+    standard = reference(body)
+    assert standard.feasible == feasible
     ceiling = mp.mpf(body["objective"]["force_ceiling_N"])
-    assert abs(found.excess - (floor - ceiling) / max(floor, abs(ceiling - floor))) <= 1e-20
+    assert abs(standard.excess - (floor - ceiling) / max(floor, abs(ceiling - floor))) <= 1e-20
 
 
 def test_budget_shared_by_unlike_radii() -> None:
@@ -118,5 +118,5 @@ def test_budget_shared_by_unlike_radii() -> None:
 def test_the_reference_shares_no_code_with_the_package() -> None:
     """Independent means that nothing of what is tested is even loaded."""
     code = "import sys, tests.hard.reference; print(sorted({'numpy', 'optimizer', 'schemas'} & set(sys.modules)))"
-    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
-    assert done.stdout.strip() == "[]"
+    process = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert process.stdout.strip() == "[]"

@@ -40,7 +40,7 @@ def _search(count: int) -> settings:
     )
 
 
-def _found(body: Body, faults: Sequence[str] = ()) -> str:
+def _record(body: Body, faults: Sequence[str] = ()) -> str:
     """The request as cases/found.json keeps it, whole."""
     return "\n".join([*faults, json.dumps(body)])
 
@@ -49,7 +49,7 @@ def _answer(body: Body) -> OptimizeAnswer:
     try:
         return optimized(body)
     except Exception as error:
-        error.add_note(_found(body))
+        error.add_note(_record(body))
         raise
 
 
@@ -63,7 +63,7 @@ def test_no_answer_is_wrong(body: Body) -> None:
     if answer.status == "inaccurate":
         # its point may be worse than the reference, its claims may not
         faults = [fault for fault in faults if not fault.startswith(_HONEST) and not _above(fault)]
-    assert not faults, _found(body, faults)
+    assert not faults, _record(body, faults)
 
 
 def _above(fault: str) -> bool:
@@ -76,7 +76,7 @@ def test_no_point_is_below_the_bound(body: Body, rng: random.Random) -> None:
     """Analytic: random points within the limits never beat the certified bound."""
     answer = _answer(body)
     data = machine(body)
-    asked = goal(body, data)
+    objective = goal(body, data)
     bound = mp.mpf(answer.certificate.lower_bound) / data.omega_squared
     for _ in range(20):
         u = [mp.mpc(0)] * len(data.webs)
@@ -89,8 +89,8 @@ def test_no_point_is_below_the_bound(body: Body, rng: random.Random) -> None:
             if web.cosine is not None:
                 turn = web.centre * mp.mpc(web.cosine, web.sine * rng.choice([-1, 1]))
             u[k] = mass * web.radius * turn
-        value = asked.value(data.after(u))
-        assert bound <= value * (1 + mp.mpf("1e-13")) + sum(data.noise), _found(body)
+        value = objective.value(data.after(u))
+        assert bound <= value * (1 + mp.mpf("1e-13")) + sum(data.noise), _record(body)
 
 
 @_search(30)
@@ -100,7 +100,7 @@ def test_optimal_keeps_its_word(body: Body) -> None:
     answer = _answer(body)
     if answer.status == "optimal":
         verdict = judge(Case("wild", "found by search", body), answer, None)
-        assert not verdict.faults, _found(body, verdict.faults)
+        assert not verdict.faults, _record(body, verdict.faults)
 
 
 @_search(30)
@@ -111,22 +111,22 @@ def test_units_by_powers_of_two_change_no_bit(body: Body, mass: int, length: int
     if not _inside(in_other_units(body, kilogram, metre)):
         return
     first, second = _answer(body), _answer(in_other_units(body, kilogram, metre))
-    assert first.status == second.status, _found(body)
+    assert first.status == second.status, _record(body)
     newton, newton_metre = kilogram * metre, kilogram * metre**2
-    for one, other in zip(first.counterweights, second.counterweights, strict=True):
-        assert one.mass_kg * kilogram == other.mass_kg, _found(body)
-        assert one.angle_deg == other.angle_deg, _found(body)
+    for counterweight, second_counterweight in zip(first.counterweights, second.counterweights, strict=True):
+        assert counterweight.mass_kg * kilogram == second_counterweight.mass_kg, _record(body)
+        assert counterweight.angle_deg == second_counterweight.angle_deg, _record(body)
     if first.certificate is not None:
-        assert first.residual.after.force.peak_N * newton == second.residual.after.force.peak_N, _found(body)
-        assert first.residual.after.moment.peak_Nm * newton_metre == second.residual.after.moment.peak_Nm, _found(body)
-        assert first.certificate.relative_gap == second.certificate.relative_gap, _found(body)
-        assert first.certificate.lower_bound * newton == second.certificate.lower_bound, _found(body)
+        assert first.residual.after.force.peak_N * newton == second.residual.after.force.peak_N, _record(body)
+        assert first.residual.after.moment.peak_Nm * newton_metre == second.residual.after.moment.peak_Nm, _record(body)
+        assert first.certificate.relative_gap == second.certificate.relative_gap, _record(body)
+        assert first.certificate.lower_bound * newton == second.certificate.lower_bound, _record(body)
 
 
 def _inside(body: Body) -> bool:
     """Whether the request is still within the ranges of the fields, and no length is so small that it counts as 0."""
     data = body["machine"]
-    if any(0 < abs(one["position_m"]) < 1e-200 for one in (*data["throws"], *data["webs"])):
+    if any(0 < abs(entry["position_m"]) < 1e-200 for entry in (*data["throws"], *data["webs"])):
         return False
     try:
         OptimizeRequest.model_validate(body)
@@ -155,28 +155,28 @@ def test_a_web_in_two_halves_is_the_same_web(body: Body, which: int) -> None:
     _same(body, {**body, "machine": {**body["machine"], "webs": webs}})
 
 
-def _same(body: Body, other: Body) -> None:
+def _same(body: Body, second_body: Body) -> None:
     """The bounds of either answer hold for the other, and so do status, objective and mass."""
-    first, second = _answer(body), _answer(other)
+    first, second = _answer(body), _answer(second_body)
     data = machine(body)
-    asked = goal(body, data)
-    noise = 64 * float(sum((max((abs(t.share) for t in asked.terms if t.response == r), default=0) * data.noise[r]
+    objective = goal(body, data)
+    noise = 64 * float(sum((max((abs(t.share) for t in objective.terms if t.response == r), default=0) * data.noise[r]
                             for r in (0, 1)), mp.mpf(0)) * data.omega_squared)  # fmt: skip
-    assert "infeasible" not in (first.status, second.status) or first.status == second.status, _found(body)
+    assert "infeasible" not in (first.status, second.status) or first.status == second.status, _record(body)
     if first.certificate is None or second.certificate is None:
         return
     # a ceiling may be exceeded by 1e-9, and what that is worth is not known here
     if any(name.endswith(("_N", "_Nm")) for name in body["objective"]):
         return
-    for one, two in ((first, second), (second, first)):
-        a, b = one.certificate, two.certificate
+    for answer, two in ((first, second), (second, first)):
+        a, b = answer.certificate, two.certificate
         rest = a.objective_without_counterweights
-        assert a.lower_bound <= b.objective + 1e-13 * rest + noise, _found(body)
-        if one.status == two.status == "optimal":
-            assert abs(a.objective - b.objective) <= 1.0001e-6 * rest + noise, _found(body)
-            _same_mass(one, two, body)
+        assert a.lower_bound <= b.objective + 1e-13 * rest + noise, _record(body)
+        if answer.status == two.status == "optimal":
+            assert abs(a.objective - b.objective) <= 1.0001e-6 * rest + noise, _record(body)
+            _same_mass(answer, two, body)
 
 
-def _same_mass(one: OptimizeAnswer, two: OptimizeAnswer, body: Any) -> None:
+def _same_mass(answer: OptimizeAnswer, two: OptimizeAnswer, body: Any) -> None:
     """No bound of one is above the mass of the other, but for what optima may differ."""
-    assert one.certificate.mass_lower_bound_kg <= two.total_mass_kg * (1 + MASS_GAP), _found(body)
+    assert answer.certificate.mass_lower_bound_kg <= two.total_mass_kg * (1 + MASS_GAP), _record(body)

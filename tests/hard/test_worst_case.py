@@ -12,12 +12,12 @@ _KNOWN = stored.read()
 
 
 def _held(kind: str, cases: range) -> None:
-    found = {
+    fields = {
         case.name: wrong
         for case in _CASES[cases.start :: cases.step]
         if (wrong := faults(kind, case, _KNOWN[stored.digest(case.body)])[1])
     }
-    assert not found, found
+    assert not fields, fields
 
 
 @pytest.mark.parametrize(("offset", "kind"), part(2, list(enumerate(KINDS)), rows=True))

@@ -84,17 +84,17 @@ def in_other_units(body: Body, mass: float, length: float) -> Body:
 
     scale(data, "reference_plane_m", length)
     scale(data, "max_total_mass_kg", mass)
-    for one in data["throws"]:
+    for crank in data["throws"]:
         for name in ("position_m", "crank_radius_m"):
-            scale(one, name, length)
-        scale(one, "rotating_mass_kg", mass)
-        for each in one["rows"]:
-            scale(each, "reciprocating_mass_kg", mass)
-    for one in data["webs"]:
+            scale(crank, name, length)
+        scale(crank, "rotating_mass_kg", mass)
+        for line in crank["rows"]:
+            scale(line, "reciprocating_mass_kg", mass)
+    for plane in data["webs"]:
         for name in ("position_m", "counterweight_radius_m"):
-            scale(one, name, length)
-        scale(one, "max_mass_kg", mass)
-    places = [one["position_m"] for one in (*data["throws"], *data["webs"])]
+            scale(plane, name, length)
+        scale(plane, "max_mass_kg", mass)
+    places = [entry["position_m"] for entry in (*data["throws"], *data["webs"])]
     if objective.get("moment_weight") is None and max(places) == min(places):
         # without a span it is 1 of the metres that are no longer counted in
         objective["moment_weight"] = 1.0

@@ -47,23 +47,23 @@ def half_speed(body: Body) -> Body:
     return {**body, "scenarios": [{"name": "as it is"}, {"name": "slow", "changes": [slow]}]}
 
 
-def as_without(case: Case, known: Reference, answer: OptimizeAnswer) -> Iterator[str]:
-    wanted = "optimal" if known.feasible else "infeasible"
-    if answer.status not in (wanted, "inaccurate"):
-        yield f"{answer.status}, must be {wanted}"
-    if answer.status == "infeasible" or known.objective is None or answer.certificate is None:
+def as_without(case: Case, reference: Reference, answer: OptimizeAnswer) -> Iterator[str]:
+    text = "optimal" if reference.feasible else "infeasible"
+    if answer.status not in (text, "inaccurate"):
+        yield f"{answer.status}, must be {text}"
+    if answer.status == "infeasible" or reference.objective is None or answer.certificate is None:
         return
-    room = known.noise + _ROUNDING * known.rest
-    relaxed = known.objective if known.relaxed is None else known.relaxed
+    room = reference.noise + _ROUNDING * reference.rest
+    relaxed = reference.objective if reference.relaxed is None else reference.relaxed
     if answer.certificate.objective < relaxed - room:
         yield f"objective {answer.certificate.objective!r} is below {mp.nstr(relaxed, 17)}"
-    if answer.certificate.lower_bound is not None and answer.certificate.lower_bound > known.objective + room:
-        yield f"bound {answer.certificate.lower_bound!r} is above {mp.nstr(known.objective, 17)}"
+    if answer.certificate.lower_bound is not None and answer.certificate.lower_bound > reference.objective + room:
+        yield f"bound {answer.certificate.lower_bound!r} is above {mp.nstr(reference.objective, 17)}"
     if (
         answer.status == "optimal"
-        and answer.certificate.objective > known.objective + _gap(case) * _scale(answer) + room
+        and answer.certificate.objective > reference.objective + _gap(case) * _scale(answer) + room
     ):
-        yield f"objective {answer.certificate.objective!r} is above {mp.nstr(known.objective, 17)}"
+        yield f"objective {answer.certificate.objective!r} is above {mp.nstr(reference.objective, 17)}"
 
 
 def _scale(answer: OptimizeAnswer) -> float:
@@ -89,11 +89,11 @@ def _ceilings(body: Body) -> bool:
     return any("ceiling" in name for name in body.get("objective", {}))
 
 
-def rests(case: Case, known: Reference, answer: OptimizeAnswer) -> Iterator[str]:
+def rests(case: Case, reference: Reference, answer: OptimizeAnswer) -> Iterator[str]:
     assert answer.certificate is not None
-    room = float(known.noise) + (1e-9 + _gap(case)) * _scale(answer)
-    if abs(answer.certificate.objective - float(known.rest)) > room:
-        yield f"objective {answer.certificate.objective!r} must be {mp.nstr(known.rest, 17)}"
+    room = float(reference.noise) + (1e-9 + _gap(case)) * _scale(answer)
+    if abs(answer.certificate.objective - float(reference.rest)) > room:
+        yield f"objective {answer.certificate.objective!r} must be {mp.nstr(reference.rest, 17)}"
     if answer.status == "optimal" and case.body.get("objective", {}).get("least_mass", True) and _any_mass(answer):
         yield f"{answer.total_mass_kg!r} kg where none are needed"
 
@@ -106,16 +106,16 @@ def tolerances(body: Body) -> Body:
     return {**body, "tolerances": {"mass_relative": MASS, "angle_deg": ANGLE}}
 
 
-def evaluated(case: Case, known: Reference, answer: OptimizeAnswer) -> Iterator[str]:
+def evaluated(case: Case, reference: Reference, answer: OptimizeAnswer) -> Iterator[str]:
     if answer.certificate is None:
-        if known.feasible and not _ceilings(case.body):
+        if reference.feasible and not _ceilings(case.body):
             yield "infeasible without ceilings"
         return
     value, size = _worst(case.body, answer)
-    if abs(value - answer.certificate.objective) > _ROUNDING * size + known.noise:
+    if abs(value - answer.certificate.objective) > _ROUNDING * size + reference.noise:
         yield f"objective {answer.certificate.objective!r} is {mp.nstr(value, 17)}"
-    if known.relaxed is not None and value < known.relaxed - known.noise - _ROUNDING * size:
-        yield f"objective {mp.nstr(value, 17)} is below {mp.nstr(known.relaxed, 17)}, that without tolerances"
+    if reference.relaxed is not None and value < reference.relaxed - reference.noise - _ROUNDING * size:
+        yield f"objective {mp.nstr(value, 17)} is below {mp.nstr(reference.relaxed, 17)}, that without tolerances"
     price = answer.price_of_robustness
     if price is None:
         yield "no price"
@@ -128,16 +128,16 @@ def evaluated(case: Case, known: Reference, answer: OptimizeAnswer) -> Iterator[
 def _worst(body: Body, answer: OptimizeAnswer) -> tuple[Number, Number]:
     """The worst case in 100-digit numbers, and the sum of what it is made of."""
     data = machine(body)
-    asked, square = goal(body, data), data.omega_squared
+    objective, square = goal(body, data), data.omega_squared
     u = [
-        mp.mpf(one.mass_kg) * web.radius * unit(one.angle_deg)
-        for one, web in zip(answer.counterweights, data.webs, strict=True)
+        mp.mpf(counterweight.mass_kg) * web.radius * unit(counterweight.angle_deg)
+        for counterweight, web in zip(answer.counterweights, data.webs, strict=True)
     ]
     after, share = data.after(u), mp.mpf(MASS)
     share = abs((1 + share) * unit(ANGLE) - 1)
-    rows, size = list(asked.floors), sum(asked.floors, ZERO)
+    rows, size = list(objective.floors), sum(objective.floors, ZERO)
     co = (after.force[0], after.moment[0])
-    for term in asked.terms:
+    for term in objective.terms:
         arms = [mp.mpf(1) if term.response == 0 else abs(web.arm) for web in data.webs]
         felt = abs(term.share) * sum((arm * abs(v) for arm, v in zip(arms, u, strict=True)), ZERO)
         rows[term.row] += abs(term.constant + term.share * co[term.response]) + share * felt
@@ -152,12 +152,12 @@ def masses(body: Body) -> Body | None:
     return {**body, "tolerances": {"reciprocating_mass_relative": 0.01}}
 
 
-def no_less(case: Case, known: Reference, answer: OptimizeAnswer) -> Iterator[str]:
+def no_less(case: Case, reference: Reference, answer: OptimizeAnswer) -> Iterator[str]:
     if answer.certificate is None:
         return
-    proof, room = answer.certificate, float(known.noise) + _ROUNDING * float(known.rest)
-    if known.relaxed is not None and proof.objective < float(known.relaxed) - room:
-        yield f"objective {proof.objective!r} is below {mp.nstr(known.relaxed, 17)}, that without scatter"
+    proof, room = answer.certificate, float(reference.noise) + _ROUNDING * float(reference.rest)
+    if reference.relaxed is not None and proof.objective < float(reference.relaxed) - room:
+        yield f"objective {proof.objective!r} is below {mp.nstr(reference.relaxed, 17)}, that without scatter"
     price = answer.price_of_robustness
     most = None if price is None or _ceilings(case.body) else price.nominal_optimum_worst_case
     if most is not None and (proof.lower_bound or 0.0) > most * (1 + _ROUNDING) + room:
@@ -173,10 +173,10 @@ KINDS: dict[str, tuple[Callable[[Body], Body | None], Judge]] = {
 }
 
 
-def faults(kind: str, case: Case, known: Reference) -> tuple[str, list[str]]:
+def faults(kind: str, case: Case, reference: Reference) -> tuple[str, list[str]]:
     """Status of the answer, and what is wrong with it; an exception or a warning is a fault like any other."""
-    made, judge = KINDS[kind]
-    body = made(case.body)
+    function, judge = KINDS[kind]
+    body = function(case.body)
     if body is None:
         return "not asked", []
     try:
@@ -185,10 +185,10 @@ def faults(kind: str, case: Case, known: Reference) -> tuple[str, list[str]]:
             answer = optimize(OptimizeRequest.model_validate(body))
     except Exception as error:  # whatever it is, it is what the battery looks for
         return "exception", [f"{type(error).__name__}: {error}"]
-    found = list(judge(case, known, answer))
+    judgement = list(judge(case, reference, answer))
     if not _certified(answer):
-        found.append("a status that its certificate does not bear out")
-    return answer.status, found
+        judgement.append("a status that its certificate does not bear out")
+    return answer.status, judgement
 
 
 def _certified(answer: OptimizeAnswer) -> Any:
@@ -199,14 +199,14 @@ def _certified(answer: OptimizeAnswer) -> Any:
 
 
 def main() -> int:
-    console, known, failed = Console(), stored.read(), 0
+    console, content, failed = Console(), stored.read(), 0
     for kind in KINDS:
         statuses: Counter[str] = Counter()
         for case in all_cases():
-            status, found = faults(kind, case, known[stored.digest(case.body)])
+            status, texts = faults(kind, case, content[stored.digest(case.body)])
             statuses[status] += 1
-            failed += bool(found)
-            for fault in found:
+            failed += bool(texts)
+            for fault in texts:
                 console.print(f"{kind}, {case.name}: {fault}", markup=False)
         console.print(f"{kind}: " + ", ".join(f"{name} {count}" for name, count in statuses.most_common()))
     return int(failed > 0)

@@ -8,13 +8,13 @@ from tests.hard_effects.battery import CASES
 from tests.hard_effects.case import Finding
 
 
-def main(wanted: list[str]) -> int:
+def main(texts: list[str]) -> int:
     """Run the cases and print a line for every quantity; 1 if any demand is not met."""
     worst: dict[tuple[str, str], tuple[Finding, str]] = {}
     count: dict[tuple[str, str], set[str]] = defaultdict(set)
     failed, slowest = [], (0.0, "")
     for case in CASES:
-        if not all(word in case.id for word in wanted):
+        if not all(word in case.id for word in texts):
             continue
         start = time.perf_counter()
         for finding in case.findings():

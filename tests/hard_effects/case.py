@@ -45,11 +45,11 @@ def error(got: Any, exact: Any, size: Number | None = None) -> float:
     Not a number counts as infinite; a natural size of 0 asks for exactly 0.
     """
     values = np.atleast_1d(np.asarray(got)).ravel().tolist()
-    wanted = list(exact) if isinstance(exact, list | tuple) else [exact]
-    assert len(values) == len(wanted), (len(values), len(wanted))
+    entries = list(exact) if isinstance(exact, list | tuple) else [exact]
+    assert len(values) == len(entries), (len(values), len(entries))
     if size is None:
-        size = max(abs(one) for one in wanted)
-    off = max((abs(mp.mpmathify(v) - w) for v, w in zip(values, wanted, strict=True)), default=mp.mpf(0))
+        size = max(abs(entry) for entry in entries)
+    off = max((abs(mp.mpmathify(v) - w) for v, w in zip(values, entries, strict=True)), default=mp.mpf(0))
     if not mp.isfinite(off):
         return float("inf")
     assert size >= 0

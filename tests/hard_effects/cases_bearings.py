@@ -73,8 +73,8 @@ def _macaulay(bearings: list[Number], load: Number) -> list[Number]:
     for i, at in enumerate(bearings):
         # deflection a + b x + (load (x - z)^3+ - sum R (x - z_i)^3+) / 6 = 0
         matrix[i, n], matrix[i, n + 1] = mp.mpf(1), at
-        for j, other in enumerate(bearings):
-            matrix[i, j] = -(max(at - other, mp.mpf(0)) ** 3) / 6
+        for j, bearing in enumerate(bearings):
+            matrix[i, j] = -(max(at - bearing, mp.mpf(0)) ** 3) / 6
         right[i] = -(max(at - load, mp.mpf(0)) ** 3) / 6
         matrix[n, i], matrix[n + 1, i] = mp.mpf(1), at
     right[n], right[n + 1] = mp.mpf(1), load
@@ -112,8 +112,8 @@ def _measure(shaft: Shaft) -> Iterator[Finding]:
                 moments.append(sum(terms))
                 nearer = [r * max(x - station, 0) for r, x in zip(column, places, strict=True)]
                 size = max(size, min(sum(map(abs, terms)), sum(map(abs, nearer)) + max(planes[k] - station, 0)))
-            found = bending_moment(bearings, got[model][:, k : k + 1], loads[k : k + 1], np.ones((1, 1)), stations)
-            worst = max(worst, error(found[:, 0], moments, size))
+            moment = bending_moment(bearings, got[model][:, k : k + 1], loads[k : k + 1], np.ones((1, 1)), stations)
+            worst = max(worst, error(moment[:, 0], moments, size))
         yield Finding(f"bending moment, {model}", worst, ALGEBRAIC)
 
 

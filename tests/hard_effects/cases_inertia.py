@@ -50,7 +50,7 @@ def _machine(
     *throws: tuple[float, float, float, list[tuple[float, float, float | None]]], **rest: Any
 ) -> dict[str, Any]:
     """Throws as plane, crank angle, radius, rows; rows as axis, mass, rod length."""
-    made = [
+    cranks = [
         {
             "position_m": z,
             "crank_angle_deg": crank,
@@ -63,7 +63,7 @@ def _machine(
         }
         for z, crank, radius, of in throws
     ]
-    return {"kind": "reciprocating", "speed_rpm": 600.0, "throws": made, **rest}
+    return {"kind": "reciprocating", "speed_rpm": 600.0, "throws": cranks, **rest}
 
 
 def _inline(cranks: list[float], plane: float, masses: list[float] | None = None, z: float = 0.0) -> dict[str, Any]:
@@ -146,7 +146,7 @@ MACHINES = (
 )
 
 
-def _phasors(found: list[Row], order: int, weight: list[Number]) -> tuple[Number, Number]:
+def _phasors(lines: list[Row], order: int, weight: list[Number]) -> tuple[Number, Number]:
     """Both phasors of sum w m r A_k cos(k phi) along the axes, from the sum at two angles."""
 
     def at(theta: Number) -> Number:
@@ -157,20 +157,20 @@ def _phasors(found: list[Row], order: int, weight: list[Number]) -> tuple[Number
             * harmonic(order, row.radius, row.length)
             * row.axis
             * mp.cos(order * (theta + row.ahead))
-            for w, row in zip(weight, found, strict=True)
+            for w, row in zip(weight, lines, strict=True)
         )
 
-    first, second = at(mp.mpf(0)), at(mp.pi / (2 * order)) / (mp.j * found[0].sense)
+    first, second = at(mp.mpf(0)), at(mp.pi / (2 * order)) / (mp.j * lines[0].sense)
     return (first + second) / 2, (first - second) / 2
 
 
 def _measure(hard: Hard) -> Iterator[Finding]:
     plan = layout(ReciprocatingMachine.model_validate(hard.body))
-    found, throws = rows(hard.body), hard.body["throws"]
+    lines, throws = rows(hard.body), hard.body["throws"]
     planes = [mp.mpf(t["position_m"]) for t in throws]
     centre = (min(planes) + max(planes)) / 2
-    given = hard.body.get("reference_plane_m")
-    plane = centre if given is None else mp.mpf(given)
+    reference_plane_m = hard.body.get("reference_plane_m")
+    plane = centre if reference_plane_m is None else mp.mpf(reference_plane_m)
     # one unit in the last place of where the machine stands
     place = max(abs(z) for z in planes) * EPS / ALGEBRAIC
 
@@ -181,14 +181,14 @@ def _measure(hard: Hard) -> Iterator[Finding]:
 
     for order in ORDERS:
         got = reciprocating(plan, order)
-        alone = [row.mass * row.radius * abs(harmonic(order, row.radius, row.length)) for row in found]
-        co, counter = _phasors(found, order, [mp.mpf(1)] * len(found))
+        alone = [row.mass * row.radius * abs(harmonic(order, row.radius, row.length)) for row in lines]
+        co, counter = _phasors(lines, order, [mp.mpf(1)] * len(lines))
         force = abs(co) + abs(counter)
         size = sum(alone)
         smallest = abs(abs(co) - abs(counter))
 
-        def finding(quantity: str, got: Any, wanted: Any, size: Number, order: int = order) -> Finding:
-            return Finding(f"order {order}, {quantity}", error(got, wanted, size), ALGEBRAIC)
+        def finding(quantity: str, got: Any, value: Any, size: Number, order: int = order) -> Finding:
+            return Finding(f"order {order}, {quantity}", error(got, value, size), ALGEBRAIC)
 
         yield finding("force", [got.force.co, got.force.counter], [co, counter], size)
         yield finding("peak force", got.force.peak, force, size)
@@ -196,8 +196,8 @@ def _measure(hard: Hard) -> Iterator[Finding]:
         for name, along in (("x", 1 + 0j), ("y", 1j)):
             peak = abs(co + mp.mpmathify(along) ** 2 * mp.conj(counter))
             yield finding(f"peak along {name}", got.force.peak_along(np.asarray(along)), peak, size)
-        arms = [row.plane - centre for row in found]
-        both = _phasors(found, order, [row.plane - plane for row in found])
+        arms = [row.plane - centre for row in lines]
+        both = _phasors(lines, order, [row.plane - plane for row in lines])
         size = couple_size(alone, arms, force)
         yield finding("couple", [got.moment.co, got.moment.counter], list(both), size)
         yield finding("peak couple", got.moment.peak, sum(map(abs, both)), size)
@@ -218,9 +218,11 @@ def _rods() -> Iterator[Finding]:
     for length in (1.0000001, 1.001, 1.1, 2.0, 5.0, 1e3, 1e9, 1e20):
         ratio = 1.0 / length
         for order in ORDERS:
-            wanted = harmonic(order, mp.mpf(ratio), mp.mpf(1))
+            actual_harmonic = harmonic(order, mp.mpf(ratio), mp.mpf(1))
             # relative to the coefficient itself, however small
-            yield Finding(f"A_{order}", error(acceleration_harmonic(order, np.asarray(ratio)), wanted), ALGEBRAIC)
+            yield Finding(
+                f"A_{order}", error(acceleration_harmonic(order, np.asarray(ratio)), actual_harmonic), ALGEBRAIC
+            )
 
 
 CASES = (

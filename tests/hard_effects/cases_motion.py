@@ -30,12 +30,12 @@ def _angles(exact: Machine) -> list[float]:
         for centre in (0, mp.pi / 2, mp.pi, 3 * mp.pi / 2):
             near = [s * d for d in (1e-10, 1e-6, 3e-4, 1e-2) for s in (-1, 1)]
             grid += [float(mp.fmod(centre + d - row.ahead + 4 * mp.pi, 2 * mp.pi)) for d in (0, *near)]
-    grid += [float(one) + d for one in exact.breaks for d in (-1e-7, 1e-7)]
+    grid += [float(exact_break) + d for exact_break in exact.breaks for d in (-1e-7, 1e-7)]
     return sorted(x for x in grid if x >= 0.0)
 
 
 def _parts(state: State) -> Number:
-    return sum(abs(one) for one in state.gas) + abs(state.inertia) + abs(state.friction)
+    return sum(abs(gas) for gas in state.gas) + abs(state.inertia) + abs(state.friction)
 
 
 def _measure(hard: Hard) -> Iterator[Finding]:
@@ -44,7 +44,7 @@ def _measure(hard: Hard) -> Iterator[Finding]:
     exact = Machine(body)
     angles = _angles(exact)
     plan = layout(machine)
-    found = run(machine, plan, _EFFECTS, Fidelity(), np.array(angles))
+    effects = run(machine, plan, _EFFECTS, Fidelity(), np.array(angles))
     states = [[row.at(theta) for theta in angles] for row in exact.rows]
     demanded = ALGEBRAIC * hard.condition
 
@@ -61,7 +61,7 @@ def _measure(hard: Hard) -> Iterator[Finding]:
     def largest(of: Callable[[State], Number]) -> Callable[[Row, list[State]], Number]:
         return lambda _row, line: max(abs(of(state)) for state in line)
 
-    moving, gas, pistons, rods = (found[name] for name in ("kinematics", "gas", "piston_force", "rod_forces"))
+    moving, gas, pistons, rods = (effects[name] for name in ("kinematics", "gas", "piston_force", "rod_forces"))
     yield worst("displacement", moving.displacement, lambda s: s.displacement, lambda row, _: 2 * row.radius)
     yield worst("velocity", moving.velocity, lambda s: s.velocity, largest(lambda s: s.velocity))
     yield worst("acceleration", moving.acceleration, lambda s: s.acceleration, largest(lambda s: s.acceleration))
@@ -70,7 +70,9 @@ def _measure(hard: Hard) -> Iterator[Finding]:
         yield worst("pressure", gas.forces.pressure[:, side], lambda s, side=side: s.pressure(side), size)
         force = largest(lambda s, side=side: s.gas[side])
         yield worst("gas force of a side", gas.forces.force[:, side], lambda s, side=side: s.gas[side], force)
-    yield worst("gas force", pistons.gas, lambda s: sum(s.gas), largest(lambda s: sum(abs(one) for one in s.gas)))
+    yield worst(
+        "gas force", pistons.gas, lambda s: sum(s.gas), largest(lambda s: sum(abs(pressures) for pressures in s.gas))
+    )
     yield worst("inertia force", pistons.inertia, lambda s: s.inertia, largest(lambda s: s.inertia))
     yield worst("friction force", pistons.friction, lambda s: s.friction, lambda row, _: row.friction)
     yield worst("piston force", pistons.total, lambda s: s.piston, largest(_parts))
@@ -90,18 +92,18 @@ def _measure(hard: Hard) -> Iterator[Finding]:
     yield factor(lambda s: s.rate / s.row.radius, "overturning couple", rods.overturning, lambda row: row.radius)
     torque = [sum(line[t].torque for line in states) + exact.shaft_friction for t in range(len(angles))]
     size = sum(max(_parts(s) * abs(s.rate) for s in line) for line in states) + exact.shaft_friction
-    yield Finding("torque", error(found["torque"].total, torque, size), demanded)
-    yield from _shaft(exact, states, found["shaft_loads"], demanded)
-    yield from _switching(exact, found["gas"].chambers, plan, demanded)
+    yield Finding("torque", error(effects["torque"].total, torque, size), demanded)
+    yield from _shaft(exact, states, effects["shaft_loads"], demanded)
+    yield from _switching(exact, effects["gas"].chambers, plan, demanded)
 
 
 def _shaft(exact: Machine, states: list[list[State]], got: Any, demanded: float) -> Iterator[Finding]:
     """Forces of the rows on the shaft, as vectors."""
     planes, forces = got
     for k, (row, line) in enumerate(zip(exact.rows, states, strict=True)):
-        wanted = [s.piston * row.axis * (1 - mp.j * row.sense * s.tangent) for s in line]
+        pistons = [s.piston * row.axis * (1 - mp.j * row.sense * s.tangent) for s in line]
         size = max(_parts(s) * mp.sqrt(1 + s.tangent**2) for s in line)
-        yield Finding("force of a row on the shaft", error(forces[k], wanted, size), demanded)
+        yield Finding("force of a row on the shaft", error(forces[k], pistons, size), demanded)
         yield Finding("plane of a row", error(planes[k], row.plane, max(abs(row.plane), mp.mpf(1))), ALGEBRAIC)
 
 
@@ -120,8 +122,8 @@ def _switching(exact: Machine, chambers: Any, plan: Any, demanded: float) -> Ite
             )
             for got, travel, grows in both:
                 angle = angle_at(row, travel if side == 0 else chamber.stroke - travel)
-                wanted = angle if grows == (side == 0) else 2 * mp.pi - angle
-                yield Finding("switching angle [rad]", error(got, wanted, mp.mpf(1)), demanded)
+                actual_angle = angle if grows == (side == 0) else 2 * mp.pi - angle
+                yield Finding("switching angle [rad]", error(got, actual_angle, mp.mpf(1)), demanded)
 
 
 CASES = tuple(Case("motion", hard.name, hard.why, lambda hard=hard: _measure(hard)) for hard in MACHINES)

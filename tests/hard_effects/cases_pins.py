@@ -25,9 +25,9 @@ class Pins(NamedTuple):
     condition: float = 1.0
 
 
-def pins(angles: list[float], radius: Any = 0.06, **each: Any) -> list[dict[str, Any]]:
+def pins(angles: list[float], radius: Any = 0.06, **options: Any) -> list[dict[str, Any]]:
     """Pins at these angles; every other field one value for all, or a list."""
-    columns = {"radius_m": radius, **each}
+    columns = {"radius_m": radius, **options}
     return [
         {"angle_deg": angle, **{name: v[k] if isinstance(v, list) else v for name, v in columns.items()}}
         for k, angle in enumerate(angles)
@@ -130,43 +130,45 @@ def _answer(body: dict[str, Any]) -> Any:
     return pin_loads(PinLoadsRequest.model_validate({"angles": {"step_deg": 7.5}, **body}))
 
 
-def _loads(found: Any, exact: Any) -> float:
+def _loads(subject: Any, exact: Any) -> float:
     """Worst pin, against its own largest load; samples at dead points have none."""
     worst = 0.0
-    for k, pin in enumerate(found.pins):
+    for k, pin in enumerate(subject.pins):
         pairs = [(v, w) for v, w in zip(pin.load_N, (line[k] for line in exact), strict=True) if v is not None]
         worst = max(worst, error([v for v, _ in pairs], [w for _, w in pairs]))
     return worst
 
 
 def _elastic(case: Pins) -> Iterator[Finding]:
-    found, exact = _answer({"pins": case.pins, "rotation_torque_Nm": case.torque}), Pattern(case.pins, case.torque)
+    answer, exact = _answer({"pins": case.pins, "rotation_torque_Nm": case.torque}), Pattern(case.pins, case.torque)
     demanded = max(ALGEBRAIC, 4 * EPS * case.condition)
-    yield Finding("elastic loads", _loads(found, [exact.loads(a) for a in found.angle_deg]), demanded)
-    if found.peak_N is not None:
-        off = max(error(pin.peak_N, exact.peak(k)) for k, pin in enumerate(found.pins))
+    yield Finding("elastic loads", _loads(answer, [exact.loads(a) for a in answer.angle_deg]), demanded)
+    if answer.peak_N is not None:
+        off = max(error(pin.peak_N, exact.peak(k)) for k, pin in enumerate(answer.pins))
         yield Finding("elastic peaks", off, demanded)
 
 
 def _contact(case: Pins) -> Iterator[Finding]:
-    found, exact = _answer({"pins": case.pins, "rotation_torque_Nm": case.torque}), Pattern(case.pins, case.torque)
-    wanted = [exact.contact(a) for a in found.angle_deg]
-    largest = max(abs(one) for line in wanted for one in line)
-    off = max(abs(mp.mpf(pin.load_N[t]) - line[k]) for t, line in enumerate(wanted) for k, pin in enumerate(found.pins))
+    answer, exact = _answer({"pins": case.pins, "rotation_torque_Nm": case.torque}), Pattern(case.pins, case.torque)
+    contacts = [exact.contact(a) for a in answer.angle_deg]
+    largest = max(abs(value) for line in contacts for value in line)
+    off = max(
+        abs(mp.mpf(pin.load_N[t]) - line[k]) for t, line in enumerate(contacts) for k, pin in enumerate(answer.pins)
+    )
     yield Finding("contact loads", float(off / largest), max(ALGEBRAIC, 4 * EPS * case.condition))
     # the certificate: no load is further off than the answer says, rounding included
-    bound = found.contact.load_error_bound_N
+    bound = answer.contact.load_error_bound_N
     yield Finding("contact loads over their bound", float(max(off - bound, 0) / largest), 0.0)
 
 
 def _even(count: int) -> Iterator[Finding]:
-    found = _answer({"pin_count": count, "pin_circle_radius_m": 0.06, "rotation_torque_Nm": 12.0})
+    answer = _answer({"pin_count": count, "pin_circle_radius_m": 0.06, "rotation_torque_Nm": 12.0})
     factor = 24 / (count * mp.mpf(0.06))
     exact = [
-        [factor * mp.sinpi(mp.mpf(a) / 180 - mp.mpf(2 * i) / count) for i in range(count)] for a in found.angle_deg
+        [factor * mp.sinpi(mp.mpf(a) / 180 - mp.mpf(2 * i) / count) for i in range(count)] for a in answer.angle_deg
     ]
-    yield Finding("even loads", _loads(found, exact), ALGEBRAIC)
-    off = max(error(pin.peak_N, factor) for pin in found.pins)
+    yield Finding("even loads", _loads(answer, exact), ALGEBRAIC)
+    off = max(error(pin.peak_N, factor) for pin in answer.pins)
     yield Finding("even peaks", off, ALGEBRAIC)
 
 

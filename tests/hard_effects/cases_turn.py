@@ -13,17 +13,17 @@ from tests.hard_effects.machines import MACHINES, Hard
 def _measure(hard: Hard) -> Iterator[Finding]:
     body = {**hard.body, "flywheel": {"irregularity": 0.02}}
     request = {"machine": body, "outputs": ["torque", "gas", "flywheel"], "angles": {"step_deg": 60}}
-    found = analyze(AnalyzeRequest.model_validate(request))
+    answer = analyze(AnalyzeRequest.model_validate(request))
     exact = Machine(body)
     size, omega = exact.size, exact.rows[0].omega
     chambers = [c for row in exact.rows for c in row.chambers]
     work = [c.work if c.closed else mp.mpf(0) for c in chambers]
-    got = [c.indicated_work_J for row in found.gas.rows for c in row.chambers]
+    got = [c.indicated_work_J for row in answer.gas.rows for c in row.chambers]
     # the work of compression, of which delivery is a part: small where the pressures are nearly equal
-    natural = max((abs(one) for one in work), default=mp.mpf(0))
+    natural = max((abs(value) for value in work), default=mp.mpf(0))
     yield Finding("indicated work", error(got, work, natural), ALGEBRAIC * hard.condition)
     mean_size = size / (2 * mp.pi)
-    torque = found.torque
+    torque = answer.torque
     demanded = ALGEBRAIC * hard.condition
     yield Finding("mean torque", error(torque.mean_torque_Nm, exact.mean, mean_size), demanded)
     rows = [row.mean_torque_Nm for row in torque.rows]
@@ -34,8 +34,8 @@ def _measure(hard: Hard) -> Iterator[Finding]:
     energy = exact.fluctuation
     yield Finding("fluctuation energy", error(torque.fluctuation_energy_J, energy, size), demanded)
     inertia = energy / (mp.mpf(0.02) * omega**2)
-    wanted = size / (mp.mpf(0.02) * omega**2)
-    yield Finding("flywheel inertia", error(found.flywheel.inertia_J_kg_m2, inertia, wanted), demanded)
+    extent = size / (mp.mpf(0.02) * omega**2)
+    yield Finding("flywheel inertia", error(answer.flywheel.inertia_J_kg_m2, inertia, extent), demanded)
 
 
 CASES = tuple(Case("turn", hard.name, hard.why, lambda hard=hard: _measure(hard)) for hard in MACHINES)

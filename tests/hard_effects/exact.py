@@ -216,14 +216,14 @@ class State:
 def rows(body: dict[str, Any]) -> list[Row]:
     """All rows of a posted machine, throw by throw."""
     omega = mp.mpf(body["speed_rpm"]) * mp.pi / 30
-    found = []
+    lines = []
     for throw in body["throws"]:
         radius = mp.mpf(throw["crank_radius_m"])
         for row in throw.get("rows", ()):
             rod = row["connecting_rod"]
             length = mp.inf if rod["length_m"] is None else mp.mpf(rod["length_m"])
             share = mp.mpf(rod.get("reciprocating_share", 1 / 3)) * mp.mpf(rod.get("mass_kg", 0.0))
-            found.append(
+            lines.append(
                 Row(
                     radius=radius,
                     length=length,
@@ -237,7 +237,7 @@ def rows(body: dict[str, Any]) -> list[Row]:
                     friction=mp.mpf(0),
                 )
             )
-    return _with_friction(body, found)
+    return _with_friction(body, lines)
 
 
 def _chambers(cylinder: dict[str, Any], stroke: Number) -> Iterator[Chamber]:
@@ -273,27 +273,27 @@ def rotating_friction(body: dict[str, Any]) -> Number:
     return (1 - mp.mpf(data.get("reciprocating_share", 0.7))) * losses / omega
 
 
-def _losses(body: dict[str, Any], found: list[Row]) -> list[Number]:
+def _losses(body: dict[str, Any], lines: list[Row]) -> list[Number]:
     """Power lost to friction of every row, W."""
     data = body["friction"]
-    given = data.get("indicated_power_W")
+    indicated_power_W = data.get("indicated_power_W")
     power = (
-        [mp.mpf(one) for one in given]
-        if given
-        else [sum(c.work for c in row.chambers if c.closed) * row.omega / (2 * mp.pi) for row in found]
+        [mp.mpf(value) for value in indicated_power_W]
+        if indicated_power_W
+        else [sum(c.work for c in row.chambers if c.closed) * row.omega / (2 * mp.pi) for row in lines]
     )
-    return [one * (1 / mp.mpf(data["mechanical_efficiency"]) - 1) for one in power]
+    return [value * (1 / mp.mpf(data["mechanical_efficiency"]) - 1) for value in power]
 
 
-def _with_friction(body: dict[str, Any], found: list[Row]) -> list[Row]:
+def _with_friction(body: dict[str, Any], lines: list[Row]) -> list[Row]:
     data = body.get("friction")
     if not data:
-        return found
+        return lines
     if data.get("mechanical_efficiency") is None:
-        force = [mp.mpf(one) for one in data.get("reciprocating_force_N") or [0.0] * len(found)]
+        force = [mp.mpf(value) for value in data.get("reciprocating_force_N") or [0.0] * len(lines)]
     else:
         share = mp.mpf(data.get("reciprocating_share", 0.7))
         # two strokes a turn
-        losses = zip(_losses(body, found), found, strict=True)
+        losses = zip(_losses(body, lines), lines, strict=True)
         force = [share * lost * 2 * mp.pi / row.omega / (4 * row.radius) for lost, row in losses]
-    return [Row(**{**row.__dict__, "friction": one}) for row, one in zip(found, force, strict=True)]
+    return [Row(**{**row.__dict__, "friction": value}) for row, value in zip(lines, force, strict=True)]

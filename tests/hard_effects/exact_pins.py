@@ -99,19 +99,19 @@ class Pattern:
         tried = {mp.mpf(k) for k in range(0, 360, 2)} | set(knots)
         for centre in (axis, axis + 180):
             near = [side * mp.mpf(2) ** -k for k in range(30) for side in (-1, 1)]
-            tried |= {mp.fmod(centre + one + 720, 360) for one in (0, *near)}
+            tried |= {mp.fmod(centre + value + 720, 360) for value in (0, *near)}
         edges = [*sorted(tried), mp.mpf(360) - mp.mpf(10) ** -40]
-        found = list(edges)
+        actual_edges = list(edges)
         tiny = mp.mpf(10) ** -30
         for left, right in pairwise(edges):
             a, b = left + tiny, right - tiny
             if derivative(a) * derivative(b) < 0:
-                found.append(_root(derivative, a, b))
+                actual_edges.append(_root(derivative, a, b))
 
         def size(angle: Number) -> Number:
             return abs(self.torque_at(angle)[0] * self.stiffness[pin] * parts(angle)[0] / parts(angle)[2])
 
-        return max(size(angle) for angle in found)
+        return max(size(angle) for angle in actual_edges)
 
 
 def _root(function: Callable[[Number], Number], left: Number, right: Number) -> Number:

@@ -60,7 +60,7 @@ class Machine:
     @cached_property
     def breaks(self) -> list[Number]:
         """Shaft angles in [0, 2 pi) at which the torque jumps or has a kink: dead centres and valves."""
-        found = {mp.mpf(0)}
+        names = {mp.mpf(0)}
         for row in self.rows:
             own = [mp.mpf(0), mp.pi]
             for side, chamber in enumerate(row.chambers):
@@ -70,8 +70,8 @@ class Machine:
                     x = travel if side == 0 else chamber.stroke - travel
                     angle = angle_at(row, x)
                     own.append(angle if grows == (side == 0) else 2 * mp.pi - angle)
-            found |= {mp.fmod(angle - row.ahead + 4 * mp.pi, 2 * mp.pi) for angle in own}
-        return sorted(found)
+            names |= {mp.fmod(angle - row.ahead + 4 * mp.pi, 2 * mp.pi) for angle in own}
+        return sorted(names)
 
     def watched(self) -> list[Number]:
         """Angles between which the torque is followed: a grid, and denser towards dead centres and steep places."""
@@ -84,7 +84,7 @@ class Machine:
             for centre, distance in near:
                 while distance < 0.1:
                     own = (centre - distance - row.ahead, centre + distance - row.ahead)
-                    grid |= {mp.fmod(one + 4 * mp.pi, 2 * mp.pi) for one in own}
+                    grid |= {mp.fmod(value + 4 * mp.pi, 2 * mp.pi) for value in own}
                     distance *= 1.5
         return sorted(grid)
 

@@ -22,7 +22,7 @@ _STEP = 3 if ALL else 6
 @pytest.mark.parametrize(
     "case",
     part(4, (case for case in CASES if case.subject not in _LONG))
-    + [one for subject in _LONG for one in every(_STEP, (case for case in CASES if case.subject == subject))],
+    + [value for subject in _LONG for value in every(_STEP, (case for case in CASES if case.subject == subject))],
     ids=lambda case: case.id,
 )
 def test_errors_against_fifty_digits(case: Case) -> None:
@@ -30,7 +30,9 @@ def test_errors_against_fifty_digits(case: Case) -> None:
     assert findings
     # independent: the evaluations at 50 digits
     missed = [
-        f"{one.quantity}: {one.error:.1e} > {one.demanded:.1e}" for one in findings if not one.error <= one.demanded
+        f"{finding.quantity}: {finding.error:.1e} > {finding.demanded:.1e}"
+        for finding in findings
+        if not finding.error <= finding.demanded
     ]
     assert not missed, f"{case.why}: {missed}"
 

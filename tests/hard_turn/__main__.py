@@ -26,10 +26,14 @@ def main() -> int:
             print(f"{verdict.case.name} ({verdict.case.why}) is inaccurate: {verdict.reason}")
     for theme in dict.fromkeys(verdict.case.theme for verdict in verdicts):
         of_theme = [verdict for verdict in verdicts if verdict.case.theme == theme]
-        statuses = ", ".join(f"{name} {count}" for name, count in Counter(one.status for one in of_theme).items())
-        optimal = [one for one in of_theme if one.status == "optimal"]
-        gap, mass_gap = (max((getattr(one, name) for one in optimal), default=0.0) for name in ("gap", "mass_gap"))
-        longest = max(one.seconds for one in of_theme)
+        statuses = ", ".join(
+            f"{name} {count}" for name, count in Counter(judgement.status for judgement in of_theme).items()
+        )
+        optimal = [judgement for judgement in of_theme if judgement.status == "optimal"]
+        gap, mass_gap = (
+            max((getattr(judgement, name) for judgement in optimal), default=0.0) for name in ("gap", "mass_gap")
+        )
+        longest = max(judgement.seconds for judgement in of_theme)
         print(f"{theme}: {statuses}; largest gaps {gap:.1e}, of the mass {mass_gap:.1e}; longest {longest:.1f} s")
     print(f"{len(verdicts)} cases, {len(failed)} failed")
     return int(bool(failed))

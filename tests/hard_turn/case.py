@@ -55,12 +55,12 @@ def case(
 def every(body: Body, place: str, **fields: Any) -> Body:
     """The machine with fields of all webs, bearings or throws replaced."""
     changed = copy.deepcopy(body)
-    for one in changed[place]:
-        one.update(copy.deepcopy(fields))
+    for variant in changed[place]:
+        variant.update(copy.deepcopy(fields))
     return changed
 
 
-def one(body: Body, place: str, index: int, **fields: Any) -> Body:
+def variant(body: Body, place: str, index: int, **fields: Any) -> Body:
     changed = copy.deepcopy(body)
     changed[place][index].update(fields)
     return changed

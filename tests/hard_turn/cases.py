@@ -4,8 +4,8 @@ from collections.abc import Callable, Iterator
 from fnmatch import fnmatch
 
 from tests.hard_turn import machines
-from tests.hard_turn.case import BEARINGS, BENDING, Case, case, every, one
-from tests.hard_turn.cases_goals import asked, ceilings, priorities
+from tests.hard_turn.case import BEARINGS, BENDING, Case, case, every, variant
+from tests.hard_turn.cases_goals import ceilings, goals, priorities
 from tests.hard_turn.machines import PITCH, Body
 
 
@@ -51,8 +51,8 @@ def bearings() -> Iterator[Case]:
             body["bearings"][k]["position_m"] = body["webs"][2 * k]["position_m"] + 1e-9
         yield case(f"bearings/beside-webs-{shaft}", "shares of 1e-8", body, BEARINGS, shaft=shaft)
         body = machines.three(gas=True)
-        for k, each in enumerate(body["bearings"]):
-            each["position_m"] = -1.0 - 0.01 * k
+        for k, bearing in enumerate(body["bearings"]):
+            bearing["position_m"] = -1.0 - 0.01 * k
         yield case(f"bearings/all-beside-{shaft}", "an overhang of thirty spans", body, BEARINGS, shaft=shaft)
         body = machines.three(gas=True)
         body["bearings"][-1]["position_m"] = 1e3
@@ -62,8 +62,8 @@ def bearings() -> Iterator[Case]:
         yield case(f"bearings/two-{shaft}", "both models are one", body, BEARINGS, shaft=shaft)
         body = machines.three(gas=True)
         for place in ("throws", "webs", "bearings"):
-            for each in body[place]:
-                each["position_m"] += 1e4
+            for entry in body[place]:
+                entry["position_m"] += 1e4
         yield case(f"bearings/far-from-zero-{shaft}", "lengths are small differences", body, BEARINGS, shaft=shaft)
         body = machines.twin()
         body["bearings"] = [{"name": str(k), "position_m": -0.06 + 0.02 * k} for k in range(12)]
@@ -82,26 +82,26 @@ def webs() -> Iterator[Case]:
             yield case(
                 f"webs/one-{name}-{goal}",
                 "one web unlike the others",
-                one(body, "webs", 2, max_mass_kg=most),
+                variant(body, "webs", 2, max_mass_kg=most),
                 objective,
             )
             yield case(f"webs/all-{name}-{goal}", "all webs alike", every(body, "webs", max_mass_kg=most), objective)
         for angle in (1e-6, 1e-3, 1.0, 60.0, 90.0):
             body = machines.three(gas=True)
-            for k, each in enumerate(body["webs"]):
-                each["sector"] = {"centre_deg": 180.0 + 120.0 * (k // 2), "half_angle_deg": angle}
+            for k, web in enumerate(body["webs"]):
+                web["sector"] = {"centre_deg": 180.0 + 120.0 * (k // 2), "half_angle_deg": angle}
             yield case(f"webs/sectors-{angle:g}-{goal}", "counterweights that may hardly turn", body, objective)
             body = machines.three(gas=True)
-            for k, each in enumerate(body["webs"]):
-                each["sector"] = {"centre_deg": 120.0 * (k // 2), "half_angle_deg": angle}
+            for k, plane in enumerate(body["webs"]):
+                plane["sector"] = {"centre_deg": 120.0 * (k // 2), "half_angle_deg": angle}
             yield case(f"webs/wrong-way-{angle:g}-{goal}", "sectors towards the cranks", body, objective)
         for budget in (0.0, 1e-9, 0.5, 3.0, 1e9):
             body = machines.three(gas=True) | {"max_total_mass_kg": budget}
             yield case(f"webs/budget-{budget:g}-{goal}", "an unlike price on every web", body, objective)
         for apart in (0.0, 1e-12, 1e-9, 1e-6):
             body = machines.three(gas=True)
-            for k, each in enumerate(body["webs"]):
-                each["position_m"] = PITCH * (k // 2) + apart * (k % 2)
+            for k, body_web in enumerate(body["webs"]):
+                body_web["position_m"] = PITCH * (k // 2) + apart * (k % 2)
             yield case(f"webs/apart-{apart:g}-{goal}", "webs that can hardly be told apart", body, objective)
         body = machines.three(gas=True) | {"webs": []}
         yield case(f"webs/none-{goal}", "nothing to choose", body, objective)
@@ -120,8 +120,8 @@ def spans() -> Iterator[Case]:
         for count in (1, 3):
             body = machines.shaft([0.0, 120.0, 240.0][:count], gas=True)
             for place in ("throws", "webs"):
-                for each in body[place]:
-                    each["position_m"] = 0.0
+                for entry in body[place]:
+                    entry["position_m"] = 0.0
             for goal, objective in (("bearings", BEARINGS), ("bending", BENDING), ("both", {"bearing_weight": 1})):
                 yield case(f"spans/none-{count}-{goal}-{shaft}", "all planes are one", body, objective, shaft=shaft)
 
@@ -183,8 +183,8 @@ def sizes() -> Iterator[Case]:
             throw["rows"][0]["reciprocating_mass_kg"] *= mass
         yield case(f"sizes/masses-{mass:g}", "masses of any size", body, BEARINGS)
         body = machines.three(gas=True)
-        for each in body["webs"]:
-            each["counterweight_radius_m"] *= mass
+        for web in body["webs"]:
+            web["counterweight_radius_m"] *= mass
         yield case(f"sizes/radii-{mass:g}", "counterweights of any radius", body, BEARINGS)
     for count in (7, 30, 60):
         for add in (False, True):
@@ -212,14 +212,14 @@ _OPEN = (
 )
 
 
-FAMILIES = (measures, bending, bearings, webs, spans, gas, sizes, asked, priorities, ceilings)
+FAMILIES = (measures, bending, bearings, webs, spans, gas, sizes, goals, priorities, ceilings)
 
 
 def all_cases() -> tuple[Case, ...]:
-    found = tuple(
-        each._replace(expected="said") if any(fnmatch(each.name, name) for name in _OPEN) else each
+    cases = tuple(
+        instance._replace(expected="said") if any(fnmatch(instance.name, name) for name in _OPEN) else instance
         for family in FAMILIES
-        for each in family()
+        for instance in family()
     )
-    assert len({each.name for each in found}) == len(found)
-    return found
+    assert len({instance.name for instance in cases}) == len(cases)
+    return cases

@@ -9,7 +9,7 @@ from tests.hard_turn.case import BEARINGS, BENDING, Case, case
 from tests.hard_turn.machines import Body
 
 
-def asked() -> Iterator[Case]:
+def goals() -> Iterator[Case]:
     """Gaps asked for, combinations, all orders."""
     for gap in (1.0, 1e-2, 1e-8):
         for name in ("three", "six", "vee"):

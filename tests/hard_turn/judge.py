@@ -65,8 +65,8 @@ def _judge(verdict: Verdict, request: OptimizeRequest, answer: OptimizeAnswer) -
     if answer.status == "infeasible":
         why = answer.infeasibility
         verdict.demand(why is not None and len(why.conflict) > 0, "no conflict is named")
-        for each in () if why is None else why.smallest:
-            verdict.demand(each.lower_bound <= each.smallest, f"bound of {each.response} above its value")
+        for peak in () if why is None else why.smallest:
+            verdict.demand(peak.lower_bound <= peak.smallest, f"bound of {peak.response} above its value")
         return
     assert proof is not None
     verdict.demand("contradicts" not in answer.status_reason, "a bound contradicts the answer")
@@ -77,12 +77,12 @@ def _judge(verdict: Verdict, request: OptimizeRequest, answer: OptimizeAnswer) -
     verdict.gap, verdict.mass_gap = proof.relative_gap, proof.mass_relative_gap or 0.0
     verdict.demand(proof.lower_bound <= proof.objective, "lower bound above the objective")
     if answer.status == "optimal":
-        asked = request.accuracy.relative_gap
-        verdict.demand(verdict.gap <= asked, f"gap {verdict.gap:.1e}, asked {asked:g}")
+        relative_gap = request.accuracy.relative_gap
+        verdict.demand(verdict.gap <= relative_gap, f"gap {verdict.gap:.1e}, asked {relative_gap:g}")
         verdict.demand(verdict.mass_gap <= 1e-4, f"gap of the mass {verdict.mass_gap:.1e}")
-    for web, each in zip(request.machine.webs, answer.counterweights, strict=True):
+    for web, counterweight in zip(request.machine.webs, answer.counterweights, strict=True):
         most = np.inf if web.max_mass_kg is None else web.max_mass_kg
-        verdict.demand(each.mass_kg <= most * (1 + 1e-13), f"{each.mass_kg!r} kg on {web.name}")
+        verdict.demand(counterweight.mass_kg <= most * (1 + 1e-13), f"{counterweight.mass_kg!r} kg on {web.name}")
 
 
 def _sampled(verdict: Verdict, request: OptimizeRequest, answer: OptimizeAnswer) -> None:
@@ -98,18 +98,18 @@ def _sampled(verdict: Verdict, request: OptimizeRequest, answer: OptimizeAnswer)
     rows = [row for throw in machine["throws"] for row in throw.get("rows", ())]
     # as close as an answer may hold them
     turns, series = 2.0, len(rows) + len(machine["bearings"])
-    step = min(each for each in _STEPS if turns * series * 360.0 / each <= MAX_SAMPLES)
+    step = min(single_step for single_step in _STEPS if turns * series * 360.0 / single_step <= MAX_SAMPLES)
     corners = "friction" in machine or any("cylinder" in row for row in rows)
     missed = _MISSED_CORNERS * (step / 0.1) if corners else _MISSED * (step / 0.1) ** 2
     for off in (0.0, 1e-2):
         fitted = [
             {
-                "web": each.web,
-                "mass_kg": each.mass_kg * (1.0 - off * rng.random()),
+                "web": counterweight.web,
+                "mass_kg": counterweight.mass_kg * (1.0 - off * rng.random()),
                 # sectors stay as they are
-                "angle_deg": each.angle_deg + (0.0 if "sector" in web else 10.0 * off * rng.normal()),
+                "angle_deg": counterweight.angle_deg + (0.0 if "sector" in web else 10.0 * off * rng.normal()),
             }
-            for web, each in zip(body["machine"]["webs"], answer.counterweights, strict=True)
+            for web, counterweight in zip(body["machine"]["webs"], answer.counterweights, strict=True)
         ]
         posed = {name: body[name] for name in ("machine", "fidelity")}
         posed |= {"counterweights": fitted, "outputs": ["main_bearings"], "angles": {"step_deg": step}}
@@ -117,9 +117,9 @@ def _sampled(verdict: Verdict, request: OptimizeRequest, answer: OptimizeAnswer)
         assert loads is not None
         # of the components that are sampled, not of the brackets that stand beside them
         peak = max(
-            float(np.max(np.hypot(each.after.force_x_N, each.after.force_y_N)))
-            for each in loads.bearings
-            if each.after is not None
+            float(np.max(np.hypot(bearing.after.force_x_N, bearing.after.force_y_N)))
+            for bearing in loads.bearings
+            if bearing.after is not None
         )
         size = goal.bearing_weight * peak
         verdict.demand(proof.lower_bound <= size * (1.0 + missed), f"brute force {size!r} beats the bound")

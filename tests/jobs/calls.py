@@ -45,7 +45,7 @@ class Call:
     began: float
     ended: float
     status: int | None = None
-    said: dict[str, Any] | None = None
+    document: dict[str, Any] | None = None
     ids: frozenset[str] = frozenset()
     rows: frozenset[int] = frozenset()
     whole: bool = False
@@ -104,7 +104,7 @@ class Client:
     wires: Mapping[str, Wire]
     chance: random.Random
     calls: list[Call]
-    known: dict[str, Sweep]
+    sweeps: dict[str, Sweep]
     gone: set[str]
     #: sweeps that it wants there to be at most
     most: int
@@ -118,9 +118,9 @@ class Client:
             self._submitted += 1
             self.open[f"{self.name}-{self._submitted}"] = self.chance.choice(SWEEPS)
         key, sweep = next(iter(self.open.items()))
-        found = self._call("submit", key, "POST", "/v1/sweeps", sweep.body, sweep)
-        if found.said is not None:
-            self.known[found.said["id"]] = sweep
+        value = self._call("submit", key, "POST", "/v1/sweeps", sweep.body, sweep)
+        if value.document is not None:
+            self.sweeps[value.document["id"]] = sweep
             del self.open[key]
 
     def state(self, job: str) -> Call:
@@ -136,10 +136,10 @@ class Client:
     def rows(self, job: str, first: int = 0, count: int | None = None) -> Call:
         limit = "" if count is None else f"&limit={count}"
         path = f"/v1/sweeps/{job}/results?format=parquet&select=all&offset={first}{limit}"
-        asked = self.known[job].all[first : None if count is None else first + count]
-        return self._call("rows", job, "GET", path, asked=asked)
+        span = self.sweeps[job].all[first : None if count is None else first + count]
+        return self._call("rows", job, "GET", path, span=span)
 
-    def kept(self, job: str) -> Call:
+    def table(self, job: str) -> Call:
         return self._call("kept", job, "GET", f"/v1/sweeps/{job}/results?format=parquet")
 
     def all(self) -> Call:
@@ -148,7 +148,7 @@ class Client:
 
     def something(self) -> None:
         """Whatever clients do."""
-        there = [job for job in list(self.known) if job not in self.gone]
+        there = [job for job in list(self.sweeps) if job not in self.gone]
         if self.open or not there or (len(there) < self.most and self.chance.random() < 0.1):
             return self.submit()
         job = self.chance.choice(there)
@@ -157,7 +157,7 @@ class Client:
             lambda: self.state(job): 30,
             lambda: self.rows(job): 15,
             lambda: self.rows(job, first, count): 10,
-            lambda: self.kept(job): 10,
+            lambda: self.table(job): 10,
             self.all: 10,
             lambda: self.end(job): 4,
             lambda: self.resume(job): 6,
@@ -173,7 +173,7 @@ class Client:
         path: str,
         body: object = None,
         sweep: Sweep | None = None,
-        asked: range = range(0),
+        span: range = range(0),
     ) -> Call:
         while not (services := self.services()):
             time.sleep(0.05)
@@ -182,23 +182,23 @@ class Client:
         headers = {"X-Request-ID": identity, **({"Idempotency-Key": subject} if action == "submit" else {})}
         began = time.monotonic()
         try:
-            status, told, content = send(wire.where, method, path, body, **headers)
+            status, fields, content = send(wire.where, method, path, body, **headers)
         except (OSError, http.client.HTTPException):
-            found = Call(service, action, subject, began, time.monotonic(), cut=identity in wire.cut)
+            value = Call(service, action, subject, began, time.monotonic(), cut=identity in wire.cut)
         else:
             ended = time.monotonic()
-            about = _understood(action, status, told, content, sweep or self.known.get(subject), asked)
-            found = Call(service, action, subject, began, ended, status, **about)
-        self.calls.append(found)
+            about = _understood(action, status, fields, content, sweep or self.sweeps.get(subject), span)
+            value = Call(service, action, subject, began, ended, status, **about)
+        self.calls.append(value)
         if identity in wire.doubled:
-            self.calls.append(Call(service, action, subject, began, found.ended, cut=True))
-        if action != "submit" and found.status in (204, 404):
+            self.calls.append(Call(service, action, subject, began, value.ended, cut=True))
+        if action != "submit" and value.status in (204, 404):
             self.gone.add(subject)
-        return found
+        return value
 
 
 def _understood(
-    action: Action, status: int, headers: dict[str, str], content: bytes, sweep: Sweep | None, asked: range
+    action: Action, status: int, headers: dict[str, str], content: bytes, sweep: Sweep | None, span: range
 ) -> dict[str, Any]:
     if status >= 400:
         return {"wrong": _wrong_problem(status, headers, content)}
@@ -207,32 +207,32 @@ def _understood(
     if action == "list":
         page = json.loads(content)
         wrong = "" if page["next"] is None else "more sweeps than fit on a page"
-        return {"ids": frozenset(one["id"] for one in page["sweeps"]), "wrong": wrong}
+        return {"ids": frozenset(survey["id"] for survey in page["sweeps"]), "wrong": wrong}
     assert sweep is not None
     if action in ("rows", "kept"):
         rows = pq.ParquetFile(io.BytesIO(content)).read(use_threads=False)
         index = rows["index"].to_pylist()
         complete = headers["sweep-complete"] == "true"
-        right = list(asked) if action == "rows" else sweep.best
+        right = list(span) if action == "rows" else sweep.best
         wrong = _wrong_rows(rows, index, right if complete else None, sweep)
-        return {"rows": frozenset(index), "whole": asked == sweep.all, "wrong": wrong}
-    said = json.loads(content)
-    return {"said": said, "ids": frozenset([said["id"]]), "wrong": _wrong_state(said, sweep)}
+        return {"rows": frozenset(index), "whole": span == sweep.all, "wrong": wrong}
+    document = json.loads(content)
+    return {"said": document, "ids": frozenset([document["id"]]), "wrong": _wrong_state(document, sweep)}
 
 
 def _wrong_problem(status: int, headers: dict[str, str], content: bytes) -> str:
     """Problem details say what is wrong, and when to ask again where that helps."""
     if headers.get("content-type") != "application/problem+json":
         return f"{status} is no problem+json"
-    said = json.loads(content)
-    if said["status"] != status or not said["title"] or not said["detail"]:
-        return f"a problem that says nothing: {said}"
+    error = json.loads(content)
+    if error["status"] != status or not error["title"] or not error["detail"]:
+        return f"a problem that says nothing: {error}"
     if status == 503 and "retry-after" not in headers:
         return "503 without Retry-After"
-    if "127.0.0.1" in said["detail"]:
-        return f"a problem that tells where the database is: {said['detail']}"
-    if status >= 500 and said["title"] != "Database unavailable":
-        return f"{status} {said['title']}: {said['detail']}"
+    if "127.0.0.1" in error["detail"]:
+        return f"a problem that tells where the database is: {error['detail']}"
+    if status >= 500 and error["title"] != "Database unavailable":
+        return f"{status} {error['title']}: {error['detail']}"
     return ""
 
 
@@ -246,12 +246,14 @@ def _wrong_rows(rows: pa.Table, index: list[int], complete: list[int] | None, sw
     return ""
 
 
-def _wrong_state(said: dict[str, Any], sweep: Sweep) -> str:
-    if said["total"] != sweep.rows.num_rows:
-        return f"a sweep of {said['total']} rows"
-    if said["repaired"] or said["state"] == "failed":
-        return f"a sweep that is {said['state']}, with {said['repaired']} damaged files: {said['message']}"
-    counted = said["done"], said["failed"], said["invalid"]
-    if said["state"] == "done" and counted != (said["total"], 0, sweep.invalid):
-        return f"done, with {said['done']} rows, of which {said['failed']} failed and {said['invalid']} are invalid"
+def _wrong_state(fields: dict[str, Any], sweep: Sweep) -> str:
+    if fields["total"] != sweep.rows.num_rows:
+        return f"a sweep of {fields['total']} rows"
+    if fields["repaired"] or fields["state"] == "failed":
+        return f"a sweep that is {fields['state']}, with {fields['repaired']} damaged files: {fields['message']}"
+    counted = fields["done"], fields["failed"], fields["invalid"]
+    if fields["state"] == "done" and counted != (fields["total"], 0, sweep.invalid):
+        return (
+            f"done, with {fields['done']} rows, of which {fields['failed']} failed and {fields['invalid']} are invalid"
+        )
     return ""

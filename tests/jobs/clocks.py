@@ -41,10 +41,10 @@ def library() -> Path:
     Missing
     """
     # the one for threads: Debian keeps it in a folder named for the machine
-    found = sorted(Path("/usr/lib").glob("*/faketime/libfaketimeMT.so.1"))
-    if not found:
+    paths = sorted(Path("/usr/lib").glob("*/faketime/libfaketimeMT.so.1"))
+    if not paths:
         raise Missing("libfaketime is not installed (Debian: libfaketime)")
-    return found[0]
+    return paths[0]
 
 
 class Clock:
@@ -79,8 +79,8 @@ def by(clock: Clock, folder: Path) -> AbstractContextManager[Service]:
 
 def off(running: Service) -> float:
     """How far the clock of a service is from ours, as its answers say [s]."""
-    said = running.send("GET", "/healthz")[1]["date"]
-    return email.utils.parsedate_to_datetime(said).timestamp() - time.time()
+    date = running.send("GET", "/healthz")[1]["date"]
+    return email.utils.parsedate_to_datetime(date).timestamp() - time.time()
 
 
 def wait_for(running: Service, off_s: int) -> None:
@@ -114,8 +114,8 @@ def jump(folder: Path, jump_s: int) -> None:
     """A sweep is done, one runs while the clock jumps, one starts in the other time and is killed there; then back."""
     clock = Clock(folder / "clock")
     with by(clock, folder) as running:
-        kept = submit(running)
-        require(running, kept)
+        future = submit(running)
+        require(running, future)
         forth = submit(running)
         wait_for_rows(running, forth, 1)
         clock.jump(jump_s)
@@ -127,7 +127,7 @@ def jump(folder: Path, jump_s: int) -> None:
     clock.jump(0)
     with by(clock, folder) as running:
         wait_for(running, 0)
-        for sweep in (back, kept, forth):
+        for sweep in (back, future, forth):
             require(running, sweep)
 
 
@@ -135,11 +135,11 @@ def apart(folder: Path, apart_s: int) -> None:
     """Two services that live in different times share a sweep."""
     here, there = Clock(folder / "here"), Clock(folder / "there")
     there.jump(apart_s)
-    with by(here, folder) as one, by(there, folder) as two:
+    with by(here, folder) as server, by(there, folder) as two:
         wait_for(two, apart_s)
-        sweep = submit(one)
+        sweep = submit(server)
         require(two, sweep)
-        require(one, sweep)
+        require(server, sweep)
 
 
 def main() -> None:

@@ -18,9 +18,9 @@ def synthetic_kind(monkeypatch: pytest.MonkeyPatch) -> None:
 
 @pytest.fixture
 def house(tmp_path: Path) -> Iterator[House]:
-    found = House(tmp_path)
-    yield found
-    found.database.close()
+    jobs_house = House(tmp_path)
+    yield jobs_house
+    jobs_house.database.close()
 
 
 @pytest.fixture(scope="session")
@@ -46,6 +46,6 @@ def any_house(request: pytest.FixtureRequest, tmp_path: Path) -> Iterator[House]
     url = None
     if request.param == "postgresql":
         url = request.getfixturevalue("postgres_url")
-    found = House(tmp_path, url)
-    yield found
-    found.database.close()
+    jobs_house = House(tmp_path, url)
+    yield jobs_house
+    jobs_house.database.close()

@@ -38,7 +38,7 @@ _PACE = Pace(lease_s=600.0, tidy_s=600.0)
 _MEMORY = "/dev/shm" if os.access("/dev/shm", os.W_OK) else None
 
 
-class Told:
+class Journal:
     """What was said to be so, in memory that outlives the process that said so."""
 
     def __init__(self) -> None:
@@ -57,9 +57,9 @@ class Here:
     """Computes chunks at once, in this process."""
 
     def submit(self, task: Callable[..., ChunkResult], *arguments: object) -> "Future[ChunkResult]":
-        done: Future[ChunkResult] = Future()
-        done.set_result(task(*arguments))
-        return done
+        future: Future[ChunkResult] = Future()
+        future.set_result(task(*arguments))
+        return future
 
     def window(self) -> int:
         return 1
@@ -71,99 +71,99 @@ class Here:
 class Telling(Leases):
     """Says when a chunk is finished."""
 
-    def __init__(self, house: House, told: Told, clock: Callable[[], float]) -> None:
+    def __init__(self, house: House, journal: Journal, clock: Callable[[], float]) -> None:
         super().__init__(house.database, clock=clock)
-        self._told = told
+        self._journal = journal
 
     def finish(self, computed: Sequence[Computed]) -> list[bool]:
         counted = super().finish(computed)
-        for one, counts in zip(computed, counted, strict=True):
+        for chunk, counts in zip(computed, counted, strict=True):
             if counts:
-                self._told.say("finished", one.chunk.job, one.chunk.rows)
+                self._journal.say("finished", chunk.chunk.job, chunk.chunk.rows)
         return counted
 
 
-def work(house: House, told: Told, least: int = TOTAL, clock: Callable[[], float] = time.time) -> None:
+def work(house: House, journal: Journal, least: int = TOTAL, clock: Callable[[], float] = time.time) -> None:
     """What a coordinator does, one step after the other, until no job is left that has fewer rows."""
-    house.leases = Telling(house, told, clock)
+    house.leases = Telling(house, journal, clock)
     coordinator = house.coordinator_on(Engine(Here), _PACE)
     while any(house.store.get(job).done < least for job in house.leases.active()):
         coordinator._step()
 
 
-def live(root: Path, told: Told, url: str | None = None) -> None:
+def live(root: Path, journal: Journal, url: str | None = None) -> None:
     """Jobs from their order to their end: one is repaired, one cancelled and resumed, one removed."""
     house = House(root, url)
-    job = _submit(house, told)
-    work(house, told)
+    job = _submit(house, journal)
+    work(house, journal)
     damaged = house.store.pieces(job)[2]
-    told.say("finished", job, -damaged.rows)
+    journal.say("finished", job, -damaged.rows)
     house.leases.reopen(job, damaged)
-    work(house, told)
+    work(house, journal)
 
-    job = _submit(house, told, again=True)
-    work(house, told, least=20)
+    job = _submit(house, journal, again=True)
+    work(house, journal, least=20)
     house.store.cancel(job)
     house.files.stop(job)
     house.files.go(job)
     house.store.resume(job)
-    work(house, told)
+    work(house, journal)
 
-    job = _submit(house, told, gone=True)
-    work(house, told, least=10)
+    job = _submit(house, journal, gone=True)
+    work(house, journal, least=10)
     house.store.cancel(job)
     house.files.stop(job)
-    told.say("leaving", job)
+    journal.say("leaving", job)
     house.retention.mark_removed(job)
-    told.say("removed", job)
+    journal.say("removed", job)
     house.files.remove(job)
     house.retention.forget(job)
     Housekeeping(house.store, house.retention, house.files).tidy()
 
 
-def _submit(house: House, told: Told, **asked: bool) -> str:
-    job = house.submit(TOTAL, CHUNK, **asked)
-    told.say("accepted", job)
+def _submit(house: House, journal: Journal, **options: bool) -> str:
+    job = house.submit(TOTAL, CHUNK, **options)
+    journal.say("accepted", job)
     return job
 
 
-def check(root: Path, told: Told, url: str | None = None) -> tuple[int, int]:
+def check(root: Path, journal: Journal, url: str | None = None) -> tuple[int, int]:
     """Go on after a crash; rows that are lost or wrong, and files that belong to nobody."""
     house = House(root, url)
-    lost = _forgotten(house, told)
+    lost = _forgotten(house, journal)
     later = time.time() + 3600
-    work(house, Told(), clock=lambda: later)
+    work(house, Journal(), clock=lambda: later)
     Housekeeping(house.store, house.retention, house.files).tidy()
     orphans = 0
-    known = house.retention.job_ids()
-    for job in known:
-        found = house.store.get(job)
+    jobs = house.retention.job_ids()
+    for job in jobs:
+        record = house.store.get(job)
         right = synthetic.rows(0, TOTAL)
-        if found.state == "done":
-            lost += 0 if house.rows(job).equals(right) and found.done == TOTAL else TOTAL
+        if record.state == "done":
+            lost += 0 if house.rows(job).equals(right) and record.done == TOTAL else TOTAL
         else:
             # one that was about to be resumed or removed
-            kept = house.rows_told(job)
-            lost += TOTAL if found.state != "cancelled" or kept != found.done else 0
+            count = house.row_count(job)
+            lost += TOTAL if record.state != "cancelled" or count != record.done else 0
         expected = {house.files.piece(job, piece).name for piece in house.store.pieces(job)} | {"stop"}
         orphans += len(set(house.files.names(job)) - expected)
-    orphans += len({one.name for one in (root / "results").glob("*")} - known - {".database"})
+    orphans += len({file.name for file in (root / "results").glob("*")} - jobs - {".database"})
     house.database.close()
     return lost, orphans
 
 
-def _forgotten(house: House, told: Told) -> int:
+def _forgotten(house: House, journal: Journal) -> int:
     """Rows that were said to be on disk and are not; a job that is lost, or comes back, counts with all of its."""
-    lost, said = 0, list(told)
-    for job in {job for _, job, _ in said}:
-        facts = {fact for fact, this, _ in said if this == job}
+    lost, record = 0, list(journal)
+    for job in {job for _, job, _ in record}:
+        facts = {fact for fact, this, _ in record if this == job}
         try:
-            found = house.store.get(job)
+            state = house.store.get(job)
         except UnknownJob:
             lost += 0 if "leaving" in facts else TOTAL
         else:
-            finished = sum(rows for _, this, rows in said if this == job)
-            lost += TOTAL if "removed" in facts else max(0, finished - found.done)
+            finished = sum(rows for _, this, rows in record if this == job)
+            lost += TOTAL if "removed" in facts else max(0, finished - state.done)
     return lost
 
 
@@ -171,20 +171,20 @@ def crashes(points: int) -> tuple[int, int, int, int]:
     """Crash at so many points, evenly spread: points, how many there are, rows lost, orphans."""
     with tempfile.TemporaryDirectory(dir=_MEMORY) as folder:
         # here first, so that what is imported at the first time is no call of theirs
-        live(Path(folder, "here"), told := Told())
-        assert check(Path(folder, "here"), told) == (0, 0)
-        calls = killed(partial(live, Path(folder, "there"), told := Told()))
-        assert check(Path(folder, "there"), told) == (0, 0)
+        live(Path(folder, "here"), journal := Journal())
+        assert check(Path(folder, "here"), journal) == (0, 0)
+        calls = killed(partial(live, Path(folder, "there"), journal := Journal()))
+        assert check(Path(folder, "there"), journal) == (0, 0)
     every = [(at, half) for at, halves in enumerate(calls) for half in ((False, True) if halves else (False,))]
     lost = orphans = tried = 0
     chosen = [every[number * len(every) // points] for number in range(points)] if points < len(every) else every
     for at, half in chosen:
         with tempfile.TemporaryDirectory(dir=_MEMORY) as folder:
-            told = Told()
-            passed = killed(partial(live, Path(folder), told), at, half)
+            journal = Journal()
+            passed = killed(partial(live, Path(folder), journal), at, half)
             # a life is not always one of as many calls: one of them may have ended before
             tried += len(passed) == at + 1
-            more = check(Path(folder), told)
+            more = check(Path(folder), journal)
             lost, orphans = lost + more[0], orphans + more[1]
     return tried, len(every), lost, orphans
 
@@ -209,8 +209,8 @@ def report(description: str | None, crash: Crash, missing: type[Exception]) -> N
     except missing as error:
         print(error, file=sys.stderr)
         sys.exit(2)
-    found = {"points": tried, "of": of, "rows_lost": lost, "orphans": orphans, "s": time.monotonic() - began}
-    print(json.dumps(found))
+    front = {"points": tried, "of": of, "rows_lost": lost, "orphans": orphans, "s": time.monotonic() - began}
+    print(json.dumps(front))
     sys.exit(1 if lost or orphans else 0)
 
 

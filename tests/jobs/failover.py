@@ -48,15 +48,15 @@ class Leases:
         with self._house.database.read() as connection:
             return {(job, start): owner for job, start, owner in connection.execute(leased)}
 
-    def until(self, is_one: Callable[[str], bool]) -> str:
+    def until(self, function: Callable[[str], bool]) -> str:
         """An owner that is one of those, once it has a chunk; there is something to do until then."""
         until = time.monotonic() + PATIENCE_S
-        while not (found := {*filter(is_one, owners := {*self.now().values()})}):
+        while not (texts := {*filter(function, owners := {*self.now().values()})}):
             assert time.monotonic() < until, "a service takes no chunk"
             if not owners:
                 self._submit()
             time.sleep(0.02)
-        (owner,) = found
+        (owner,) = texts
         return owner
 
     def until_lost(self, owner: str) -> float:
@@ -86,43 +86,48 @@ def failovers(folder: Path, kills: int, sqlite: bool = False, lease_s: float | N
         stack.callback(house.database.close)
         services, owners = list[Service](), list[str]()
         leases = Leases(house, lambda: services[-1].send("POST", "/v1/sweeps", BODY))
-        stack.callback(lambda: [each.kill() for each in services])
+        stack.callback(lambda: [service.kill() for service in services])
         for _ in range(2):
             services.append(begin())
             services[-1].wait()
             owners.append(leases.until(lambda owner: owner not in owners))
-        found = []
+        values = []
         for _ in range(kills):
             # the last one submits
             services.append(services.pop(0))
             owners.append(gone := owners.pop(0))
             leases.until(lambda owner, gone=gone: owner == gone)  # type: ignore[misc]
             services.pop().kill()
-            found.append(leases.until_lost(gone))
+            values.append(leases.until_lost(gone))
             services.append(begin())
             services[-1].wait()
             owners[-1] = leases.until(lambda owner: owner not in owners)
-        return found
+        return values
 
 
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--kills", type=int, default=10)
     parser.add_argument("--sqlite", action="store_true")
-    asked = parser.parse_args()
+    arguments = parser.parse_args()
     try:
         with tempfile.TemporaryDirectory() as folder:
-            found = sorted(failovers(Path(folder), asked.kills, asked.sqlite))
+            actual_failovers = sorted(failovers(Path(folder), arguments.kills, arguments.sqlite))
     except postgres.Missing as missing:
         print(missing, file=sys.stderr)
         sys.exit(2)
-    lease_s, middle = Settings().lease_s, found[len(found) // 2]
+    lease_s, middle = Settings().lease_s, actual_failovers[len(actual_failovers) // 2]
     print(
         json.dumps(
-            {"kills": len(found), "lease_s": lease_s, "median_s": round(middle, 1), "most_s": round(found[-1], 1)}
+            {
+                "kills": len(actual_failovers),
+                "lease_s": lease_s,
+                "median_s": round(middle, 1),
+                "most_s": round(actual_failovers[-1], 1),
+            }
         )
     )
-    sys.exit(1 if found[-1] > MOST_S else 0)
+    sys.exit(1 if actual_failovers[-1] > MOST_S else 0)
 
 
 if __name__ == "__main__":

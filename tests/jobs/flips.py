@@ -45,10 +45,10 @@ def flip(folder: Path, flips: int, seed: int) -> tuple[int, int]:
                 pa.Table.from_batches(jobs.rows(jobs.get(job), synthetic.SCHEMA).batches)
             except RowsDamaged:
                 refused += 1
-            found = house.wait(job)
-            rows = jobs.rows(found, synthetic.SCHEMA)
+            outcome = house.wait(job)
+            rows = jobs.rows(outcome, synthetic.SCHEMA)
             right = pa.Table.from_batches(rows.batches).equals(expected)
-            repaired += right and rows.complete and found.repaired == number + 1
+            repaired += right and rows.complete and outcome.repaired == number + 1
     house.database.close()
     return refused, repaired
 
@@ -57,11 +57,13 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--flips", type=int, default=300)
     parser.add_argument("--seed", type=int, default=1)
-    asked = parser.parse_args()
+    arguments = parser.parse_args()
     with tempfile.TemporaryDirectory() as folder:
         began = time.monotonic()
-        refused, repaired = flip(Path(folder), asked.flips, asked.seed)
-    print(json.dumps({"flips": asked.flips, "refused": refused, "repaired": repaired, "s": time.monotonic() - began}))
+        refused, repaired = flip(Path(folder), arguments.flips, arguments.seed)
+    print(
+        json.dumps({"flips": arguments.flips, "refused": refused, "repaired": repaired, "s": time.monotonic() - began})
+    )
 
 
 if __name__ == "__main__":

@@ -98,7 +98,7 @@ class Killings:
         self._left, self._mortals, self._lock = kills, mortals, threading.Lock()
         self._chances = {name: random.Random(chance.random()) for name in mortals}
 
-    def _one(self, name: str) -> bool:
+    def _next(self, name: str) -> bool:
         with self._lock:
             if self._left == 0:
                 return False
@@ -109,12 +109,12 @@ class Killings:
     def run(self, name: str) -> None:
         """Kill one of them again and again, now and then while it starts."""
         mortal, chance = self._mortals[name], self._chances[name]
-        while self._one(name):
+        while self._next(name):
             # a server starts ten times as fast
             time.sleep(chance.uniform(0.2, 9.0 if name == "database" else 3.0))
             since = time.monotonic()
             mortal.kill()
-            while name != "database" and chance.random() < 0.2 and self._one(name):
+            while name != "database" and chance.random() < 0.2 and self._next(name):
                 mortal.start()
                 time.sleep(chance.uniform(0.0, 3.0))
                 mortal.kill()
@@ -177,20 +177,20 @@ def run(
         _call_while_killed(clients, killings)
         for wire in wires.values():
             wire.calm()
-        found = _finish(clients[0], clients)
-        found += contradictions(clients[0].calls, killings.outages)
-        found += _leftovers(House(folder, where), clients[0])
-    found += [f"messages of nobody: {left.name}" for left in messages.glob("*/lock")]
-    return found, _summary(clients[0], killings, wires)
+        finish = _finish(clients[0], clients)
+        finish += contradictions(clients[0].calls, killings.outages)
+        finish += _leftovers(House(folder, where), clients[0])
+    finish += [f"messages of nobody: {left.name}" for left in messages.glob("*/lock")]
+    return finish, _summary(clients[0], killings, wires)
 
 
 def _clients(
     services: Callable[[], dict[str, Service]], wires: dict[str, Wire], chance: random.Random, most: int
 ) -> list[Client]:
     calls: list[Call] = []
-    known, gone = {}, set()
+    fields, gone = {}, set()
     return [
-        Client(f"client-{number}", services, wires, random.Random(chance.random()), calls, known, gone, most)
+        Client(f"client-{number}", services, wires, random.Random(chance.random()), calls, fields, gone, most)
         for number in range(CLIENTS)
     ]
 
@@ -217,22 +217,22 @@ def _call_while_killed(clients: list[Client], killings: Killings) -> None:
 def _finish(client: Client, clients: list[Client]) -> list[str]:
     """Have everything answered that was asked, and computed to its end; what does not come to one."""
     until = time.monotonic() + PATIENCE_S
-    for each in clients:
-        while each.open:
-            each.submit()
+    for browser in clients:
+        while browser.open:
+            browser.submit()
     # and a new one, as if nothing had happened
     client.submit()
-    there = [job for job in client.known if job not in client.gone]
+    there = [job for job in client.sweeps if job not in client.gone]
     for job in there:
         client.resume(job)
     for job in there:
-        while job not in client.gone and (client.state(job).said or {})["state"] != "done":
+        while job not in client.gone and (client.state(job).document or {})["state"] != "done":
             if time.monotonic() > until:
                 return [f"{job}: does not come to an end"]
             time.sleep(0.2)
         if job not in client.gone:
             client.rows(job)
-            client.kept(job)
+            client.table(job)
     client.all()
     return []
 
@@ -245,16 +245,16 @@ def _leftovers(house: House, client: Client) -> list[str]:
             if time.monotonic() > until:
                 return [f"file of nobody: {name}" for name in left]
             time.sleep(0.5)
-        known = house.retention.job_ids()
+        jobs = house.retention.job_ids()
     finally:
         house.database.close()
-    return [f"{job}: the database knows it alone" for job in known - (client.known.keys() - client.gone)]
+    return [f"{job}: the database knows it alone" for job in jobs - (client.sweeps.keys() - client.gone)]
 
 
 def _files_of_nobody(house: House) -> list[str]:
-    known = house.retention.job_ids()
-    left = [f"folder {job}" for job in set(house.files.folders()) - known]
-    for job in known:
+    jobs = house.retention.job_ids()
+    left = [f"folder {job}" for job in set(house.files.folders()) - jobs]
+    for job in jobs:
         expected = {house.files.piece(job, record).name for record in house.store.pieces(job)}
         selection = house.store.selection(job)
         expected |= set() if selection is None else {house.files.piece(job, selection).name}
@@ -271,7 +271,7 @@ def _summary(client: Client, killings: Killings, wires: dict[str, Wire]) -> dict
         "kills": dict(killings.counts),
         "network": dict(network),
         "away_s": round(away, 1),
-        "sweeps": len(client.known),
+        "sweeps": len(client.sweeps),
         "deleted": len(client.gone),
         "rows_read": sum(len(call.rows) for call in calls),
         "calls": dict(Counter(call.action for call in calls)),
@@ -284,13 +284,13 @@ def main() -> None:
     parser.add_argument("--kills", type=int, default=300)
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--sqlite", action="store_true")
-    began, asked = time.monotonic(), parser.parse_args()
+    began, arguments = time.monotonic(), parser.parse_args()
     with tempfile.TemporaryDirectory() as folder:
-        found, done = run(Path(folder), asked.kills, asked.seed, asked.sqlite)
-    print(json.dumps({**done, "contradictions": len(found), "s": round(time.monotonic() - began)}))
-    for what in found:
+        texts, fields = run(Path(folder), arguments.kills, arguments.seed, arguments.sqlite)
+    print(json.dumps({**fields, "contradictions": len(texts), "s": round(time.monotonic() - began)}))
+    for what in texts:
         print(what, file=sys.stderr)
-    sys.exit(1 if found else 0)
+    sys.exit(1 if texts else 0)
 
 
 if __name__ == "__main__":

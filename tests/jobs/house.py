@@ -39,8 +39,8 @@ class House:
         self.store, self.leases = Store(self.database, limits), Leases(self.database, limits)
         self.retention, self.files = Retention(self.database), JobFiles(root / "results")
 
-    def submit(self, total: int = 100, chunk_rows: int = 10, owner: str | None = None, **asked: Any) -> str:
-        request = json.dumps(asked).encode()
+    def submit(self, total: int = 100, chunk_rows: int = 10, owner: str | None = None, **options: Any) -> str:
+        request = json.dumps(options).encode()
         columns = synthetic.SCHEMA.serialize().to_pybytes()
         job, new = self.store.submit(
             Order("synthetic", request, fingerprint("synthetic", request), total, chunk_rows, columns, owner=owner)
@@ -54,20 +54,20 @@ class House:
 
     @contextmanager
     def coordinator(self, engine: Engine, pace: Pace = QUICK) -> Iterator[Coordinator]:
-        found = self.coordinator_on(engine, pace)
-        found.start()
+        coordinator = self.coordinator_on(engine, pace)
+        coordinator.start()
         try:
-            yield found
+            yield coordinator
         finally:
-            found.stop()
+            coordinator.stop()
 
     def wait(self, job: str, timeout: float = 180) -> Job:
         """The job when it has ended."""
         deadline = time.monotonic() + timeout
-        while (found := self.store.get(job)).active:
-            assert time.monotonic() < deadline, found
+        while (record := self.store.get(job)).active:
+            assert time.monotonic() < deadline, record
             time.sleep(0.02)
-        return found
+        return record
 
     def wait_for_rows(self, job: str, least: int = 1) -> None:
         deadline = time.monotonic() + 180
@@ -79,7 +79,7 @@ class House:
         with self.files.opened(job, record) as file:
             return file.read()
 
-    def rows_told(self, job: str) -> int:
+    def row_count(self, job: str) -> int:
         """Rows of the files that the database knows, all of which can be read."""
         return sum(piece.rows for piece in self.store.pieces(job) if self.read(job, piece))
 

@@ -19,16 +19,16 @@ _RANK = {"queued": 0, "running": 1, "done": 2, "cancelled": 2}
 def contradictions(calls: Sequence[Call], outages: Outages) -> list[str]:
     """What is wrong, a line for each; none if all is well."""
     ordered = sorted(calls, key=lambda call: call.began)
-    accepted = [call for call in ordered if call.action == "submit" and call.said is not None]
+    accepted = [call for call in ordered if call.action == "submit" and call.document is not None]
     about: dict[str, list[Call]] = {}
     for call in ordered:
         for job in call.ids if call.action == "submit" else {call.subject} - {""}:
-            if call.action != "submit" or call.said is not None:
+            if call.action != "submit" or call.document is not None:
                 about.setdefault(job, []).append(call)
-    found = [*_answers(ordered, outages), *_keys(accepted), *_lists(ordered, accepted, about)]
+    texts = [*_answers(ordered, outages), *_keys(accepted), *_lists(ordered, accepted, about)]
     for job, its in about.items():
-        found += [f"{job}: {what}" for check in (_existence, _states, _rows) for what in check(its)]
-    return found
+        texts += [f"{job}: {what}" for check in (_existence, _states, _rows) for what in check(its)]
+    return texts
 
 
 # ---- single answers
@@ -57,7 +57,7 @@ def _away(call: Call, times: Sequence[tuple[float, float]]) -> bool:
 def _cut_by_removal(call: Call, calls: Sequence[Call]) -> bool:
     """Whether rows were removed while they were read."""
     return call.action in ("rows", "kept") and any(
-        other.action == "end" and other.subject == call.subject and other.began <= call.ended for other in calls
+        entry.action == "end" and entry.subject == call.subject and entry.began <= call.ended for entry in calls
     )
 
 
@@ -105,12 +105,12 @@ def _lists(calls: Sequence[Call], accepted: Sequence[Call], about: Mapping[str, 
 
 def _states(calls: Sequence[Call]) -> Iterator[str]:
     """Queued, running, then done or cancelled; nothing but a request to resume leads back."""
-    seen = [(call, call.said["state"]) for call in calls if call.said is not None]
+    values = [(call, call.document["state"]) for call in calls if call.document is not None]
     resumes = [call for call in calls if call.action == "resume"]
-    for call, state in seen:
+    for call, state in values:
         if state == "cancelled" and not any(end.action == "end" and end.began <= call.ended for end in calls):
             yield "cancelled by nobody"
-        for before, earlier in seen:
+        for before, earlier in values:
             if before.ended >= call.began or (_RANK[state] >= _RANK[earlier] and not _turned(earlier, state)):
                 continue
             if earlier == "done" or not any(
@@ -129,9 +129,9 @@ def _rows(calls: Sequence[Call]) -> Iterator[str]:
     """Rows that were there are there."""
     reads = [call for call in calls if call.action == "rows" and call.status == 200 and call.whole]
     counts = [(call, len(call.rows)) for call in reads]
-    counts += [(call, call.said["done"]) for call in calls if call.said is not None]
+    counts += [(call, call.document["done"]) for call in calls if call.document is not None]
     for call, count in counts:
-        most = max((other for before, other in counts if before.ended < call.began), default=0)
+        most = max((count for before, count in counts if before.ended < call.began), default=0)
         if most > count:
             yield f"{most} rows, then {count}"
     for call in reads:

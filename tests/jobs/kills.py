@@ -26,7 +26,7 @@ def kill(
     kills: int,
     seed: int,
     longest_s: float = 2.5,
-    kills_of_one: int = 10,
+    kills_per_process: int = 10,
     body: Mapping[str, object] = ROUND,
 ) -> tuple[int, int]:
     """Kill a service so often, starting another sweep after every few kills.
@@ -42,23 +42,23 @@ def kill(
     accepted: dict[str, str] = {}
     midway = 0
     for number in range(kills):
-        found = Service(folder, delay_s=CHUNK_S)
-        found.wait()
+        server = Service(folder, delay_s=CHUNK_S)
+        server.wait()
         # asked again after each kill with the same key: one sweep, whether the answer got through or not
-        key = f"round-{number // kills_of_one}"
-        _, headers, _ = found.send("POST", "/v1/sweeps", body, **{"Idempotency-Key": key})
+        key = f"round-{number // kills_per_process}"
+        _, headers, _ = server.send("POST", "/v1/sweeps", body, **{"Idempotency-Key": key})
         assert accepted.setdefault(key, headers["location"]) == headers["location"]
         if number % 2:
             path = headers["location"]
-            before = state = found.read(path)
+            before = state = server.read(path)
             while state["done"] == before["done"] and state["state"] != "done":
                 time.sleep(0.02)
-                state = found.read(path)
+                state = server.read(path)
             midway += 0 < state["done"] < state["total"]
             time.sleep(moments.uniform(0, 0.3))
         else:
             time.sleep(moments.uniform(0, longest_s))
-        found.kill()
+        server.kill()
     request = SweepRequest.model_validate(body)
     expected = run_chunk(request.model_dump_json().encode(), 0, request.total)
     with service(folder, delay_s=0) as last:
@@ -69,7 +69,7 @@ def kill(
             assert (state["failed"], state["invalid"]) == (0, expected["status"].to_pylist().count("invalid"))
             assert last.rows(path).equals(expected)
         listed = last.read("/v1/sweeps")["sweeps"]
-        assert sorted(one["links"]["self"] for one in listed) == sorted(accepted.values())
+        assert sorted(entry["links"]["self"] for entry in listed) == sorted(accepted.values())
     return len(accepted), midway
 
 
@@ -77,19 +77,19 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--kills", type=int, default=100)
     parser.add_argument("--seed", type=int, default=1)
-    asked = parser.parse_args()
+    arguments = parser.parse_args()
     with tempfile.TemporaryDirectory() as folder:
         began = time.monotonic()
-        sweeps, midway = kill(Path(folder), asked.kills, asked.seed)
-    found = {
-        "kills": asked.kills,
+        sweeps, midway = kill(Path(folder), arguments.kills, arguments.seed)
+    fields = {
+        "kills": arguments.kills,
         "midway": midway,
         "sweeps": sweeps,
         "rows_each": SweepRequest.model_validate(ROUND).total,
         "wrong": 0,
         "s": time.monotonic() - began,
     }
-    print(json.dumps(found))
+    print(json.dumps(fields))
 
 
 if __name__ == "__main__":

@@ -37,10 +37,10 @@ def programs(folder: Path) -> Path:
     Missing
     """
     # Debian keeps them off the path
-    found = sorted(Path("/usr/lib/postgresql").glob("*/bin/initdb"))
+    paths = sorted(Path("/usr/lib/postgresql").glob("*/bin/initdb"))
     on_path = shutil.which("initdb")
-    if found or on_path:
-        return (found[-1] if found else Path(str(on_path))).parent
+    if paths or on_path:
+        return (paths[-1] if paths else Path(str(on_path))).parent
     return of_the_wheel(folder)
 
 
@@ -64,10 +64,10 @@ def _user() -> pwd.struct_passwd | None:
     """Somebody who is not root, as whom the server refuses to run; None for us if we are not."""
     if os.geteuid() != 0:
         return None
-    known = {entry.pw_name: entry for entry in pwd.getpwall()}
+    entries = {entry.pw_name: entry for entry in pwd.getpwall()}
     for name in ("postgres", "nobody"):
-        if name in known:
-            return known[name]
+        if name in entries:
+            return entries[name]
     raise Missing("as root the tests need a user postgres or nobody to run the server")
 
 
@@ -87,8 +87,8 @@ class Server:
     options : of the server, besides those that every server of the tests has.
     """
 
-    def __init__(self, found: Path, home: Path, identity: dict[str, Any], options: str = "") -> None:
-        self._programs, self._home, self._identity, self._options = found, home, identity, options
+    def __init__(self, path: Path, home: Path, identity: dict[str, Any], options: str = "") -> None:
+        self._programs, self._home, self._identity, self._options = path, home, identity, options
         # what another server was restored into is there already
         if not (home / "data").exists():
             self._run("initdb", "--username=tests", "--auth=trust", "--encoding=UTF8", "--locale=C", "--no-sync")
@@ -99,14 +99,14 @@ class Server:
 
     def _run(self, program: str, *arguments: str) -> None:
         command = [str(self._programs / program), "-D", str(self._home / "data"), *arguments]
-        with (self._home.parent / "said").open("a+") as said:
-            quiet = {"stdout": said, "stderr": said, "stdin": subprocess.DEVNULL}
-            done = subprocess.run(command, timeout=150, cwd="/", **quiet, **self._identity)
-            said.seek(0)
-            if done.returncode:
+        with (self._home.parent / "said").open("a+") as wrapper:
+            quiet = {"stdout": wrapper, "stderr": wrapper, "stdin": subprocess.DEVNULL}
+            process = subprocess.run(command, timeout=150, cwd="/", **quiet, **self._identity)
+            wrapper.seek(0)
+            if process.returncode:
                 log = self._home / "log"
                 why = log.read_text(errors="replace")[-500:] if log.exists() else ""
-                raise Missing(f"the PostgreSQL server cannot be run: {said.read()[-500:]}{why}")
+                raise Missing(f"the PostgreSQL server cannot be run: {wrapper.read()[-500:]}{why}")
 
     def start(self) -> None:
         """Start it; it takes connections when this returns."""
@@ -137,8 +137,8 @@ class Server:
         """Run one of the programs that come with the server, on this server, as its user."""
         where = ("--host=127.0.0.1", f"--port={self._port}", "--username=tests", "--no-password")
         command = [str(self._programs / program), *where, *arguments]
-        done = subprocess.run(command, cwd="/", capture_output=True, text=True, check=False, **self._identity)
-        assert done.returncode == 0, done.stderr
+        process = subprocess.run(command, cwd="/", capture_output=True, text=True, check=False, **self._identity)
+        assert process.returncode == 0, process.stderr
 
     @property
     def home(self) -> Path:
@@ -157,11 +157,11 @@ class Server:
         if self._identity:
             for path in (home, home / "data" / "recovery.signal"):
                 shutil.chown(path, self._identity["user"], self._identity["group"])
-        found = Server(self._programs, home, self._identity)
+        actual_server = Server(self._programs, home, self._identity)
         try:
-            yield found
+            yield actual_server
         finally:
-            found.stop()
+            actual_server.stop()
 
 
 def _lives(process: psutil.Process) -> bool:
@@ -181,14 +181,14 @@ def server(prefer_wheel: bool = False, options: str = "") -> Iterator[Server]:
     """
     with tempfile.TemporaryDirectory() as name:
         folder, user = Path(name), _user()
-        found = (of_the_wheel if prefer_wheel else programs)(folder)
+        path = (of_the_wheel if prefer_wheel else programs)(folder)
         home, identity = folder / "home", {}
         home.mkdir()
         if user is not None:
             folder.chmod(0o755)
             shutil.chown(home, user.pw_uid, user.pw_gid)
             identity = {"user": user.pw_uid, "group": user.pw_gid, "extra_groups": []}
-        running = Server(found, home, identity, options.replace("HOME", str(home)))
+        running = Server(path, home, identity, options.replace("HOME", str(home)))
         try:
             yield running
         finally:

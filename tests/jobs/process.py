@@ -97,10 +97,10 @@ def send(
 
 @contextmanager
 def service(folder: Path, **settings: Any) -> Iterator[Service]:
-    found = Service(folder, **settings)
+    server = Service(folder, **settings)
     try:
-        yield found.wait()
+        yield server.wait()
     finally:
-        if found.process.poll() is None:
-            found.process.terminate()
-        found.close()
+        if server.process.poll() is None:
+            server.process.terminate()
+        server.close()

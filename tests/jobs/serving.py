@@ -25,7 +25,7 @@ def slow(kind: str, request: bytes, start: int, stop: int, flag: str) -> ChunkRe
     return worker.run(kind, request, start, stop, flag)
 
 
-def serve(**given: Any) -> None:
+def serve(**options: Any) -> None:
     if VERSION in os.environ:
         # answers of what it was forked from have read the other one
         schemas.base.version.version = lambda _: os.environ[VERSION]
@@ -40,7 +40,7 @@ def serve(**given: Any) -> None:
 
     # a sweep of some thousand designs in hundreds of chunks instead of 16
     plan._FEWEST_CHUNKS = 400
-    settings = Settings(port=0, **given)
+    settings = Settings(port=0, **options)
     jobs = JobService(
         settings, Pace(poll_s=0.05, lease_s=settings.lease_s, tidy_s=float(os.environ.get(TIDY, "60"))), slow
     )

@@ -20,7 +20,7 @@ from sqlalchemy import Engine, event
 from sqlalchemy.pool import Pool
 
 from tests.jobs import postgres
-from tests.jobs.crashes import Told, check, live, report
+from tests.jobs.crashes import Journal, check, live, report
 
 #: what SQLAlchemy calls the points
 _POINTS = ((Engine, "before_cursor_execute"), (Engine, "commit"), (Pool, "checkin"))
@@ -30,7 +30,7 @@ class _Passed:
     """Points that a process came to, in memory that outlives it; at one of them it ends."""
 
     def __init__(self, at: int | None) -> None:
-        self._at, self.told = at, Told()
+        self._at, self.journal = at, Journal()
 
     def listen(self) -> None:
         """Count from now on."""
@@ -38,7 +38,7 @@ class _Passed:
 
         def come(name: str, *_: object) -> None:
             nonlocal number
-            self.told.say(name, "-", number)
+            self.journal.say(name, "-", number)
             if number == self._at:
                 os.kill(os.getpid(), signal.SIGKILL)
             number += 1
@@ -49,17 +49,17 @@ class _Passed:
     @property
     def names(self) -> list[str]:
         """What the points are."""
-        return [name for name, _, _ in self.told]
+        return [name for name, _, _ in self.journal]
 
 
-def _life(root: Path, told: Told, url: str, at: int | None = None) -> list[str]:
+def _life(root: Path, journal: Journal, url: str, at: int | None = None) -> list[str]:
     """The points that a process comes to that ends at one of them, or lives to the end."""
     passed = _Passed(at)
     child = os.fork()
     if child == 0:
         try:
             passed.listen()
-            live(root, told, url)
+            live(root, journal, url)
         except BaseException:
             sys.excepthook(*sys.exc_info())
             os._exit(1)
@@ -72,16 +72,16 @@ def _life(root: Path, told: Told, url: str, at: int | None = None) -> list[str]:
 def crashes(url: str, points: int) -> tuple[int, int, int, int]:
     """Crash at so many points, evenly spread: points, how many there are, rows lost, orphans."""
     with tempfile.TemporaryDirectory() as folder:
-        names = _life(Path(folder), told := Told(), url)
-        assert check(Path(folder), told, url) == (0, 0)
+        names = _life(Path(folder), journal := Journal(), url)
+        assert check(Path(folder), journal, url) == (0, 0)
         _emptied(url)
     chosen = [number * len(names) // points for number in range(points)] if points < len(names) else range(len(names))
     lost = orphans = tried = 0
     for at in chosen:
         with tempfile.TemporaryDirectory() as folder:
-            told = Told()
-            tried += len(_life(Path(folder), told, url, at)) == at + 1
-            more = check(Path(folder), told, url)
+            journal = Journal()
+            tried += len(_life(Path(folder), journal, url, at)) == at + 1
+            more = check(Path(folder), journal, url)
             lost, orphans = lost + more[0], orphans + more[1]
         _emptied(url)
     return tried, len(names), lost, orphans

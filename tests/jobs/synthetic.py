@@ -30,15 +30,15 @@ def rows(start: int, stop: int, failed: tuple[int, ...] = ()) -> pa.Table:
 def run(kind: str, request: bytes, start: int, stop: int, flag: str) -> ChunkResult:
     """What a request may ask for: sleep_s, kill_at and raise_at a row, kill_once and raise_once (paths); held_from a
     row on, until there is a file at held_until."""
-    asked: dict[str, Any] = json.loads(request)
-    until, held = time.monotonic() + asked.get("sleep_s", 0), start >= asked.get("held_from", stop)
-    while time.monotonic() < until or (held and not Path(asked["held_until"]).exists()):
+    document: dict[str, Any] = json.loads(request)
+    until, held = time.monotonic() + document.get("sleep_s", 0), start >= document.get("held_from", stop)
+    while time.monotonic() < until or (held and not Path(document["held_until"]).exists()):
         if Path(flag).exists():
             raise Stopped
         time.sleep(0.01)
     for name, happen in (("kill", _die), ("raise", _raise)):
-        at = asked.get(f"{name}_at")
-        once = asked.get(f"{name}_once")
+        at = document.get(f"{name}_at")
+        once = document.get(f"{name}_once")
         if at is not None and start <= at < stop and (once is None or not Path(once).exists()):
             if once is not None:
                 Path(once).touch()

@@ -105,7 +105,7 @@ def _next_stop(child: int, deliver: int) -> int:
 
 
 def _ptrace(request: int, child: int, address: int, data: int) -> None:
-    found = ctypes.CDLL(None, use_errno=True).ptrace
-    found.argtypes, found.restype = [ctypes.c_long, ctypes.c_long, ctypes.c_void_p, ctypes.c_void_p], ctypes.c_long
-    if found(request, child, address, data) < 0:
+    pointer = ctypes.CDLL(None, use_errno=True).ptrace
+    pointer.argtypes, pointer.restype = [ctypes.c_long, ctypes.c_long, ctypes.c_void_p, ctypes.c_void_p], ctypes.c_long
+    if pointer(request, child, address, data) < 0:
         raise Missing(f"processes cannot be traced here: {os.strerror(ctypes.get_errno())}")

@@ -29,9 +29,9 @@ ROWS = 400
 
 def command(pattern: str, *replaced: tuple[str, str]) -> list[str]:
     """A command of the guide, with places of the test in it."""
-    found = re.search(pattern, SECTION)
-    assert found is not None, pattern
-    line = found[0]
+    match = re.search(pattern, SECTION)
+    assert match is not None, pattern
+    line = match[0]
     for old, new in replaced:
         assert old in line, line
         line = line.replace(old, new)
@@ -40,22 +40,22 @@ def command(pattern: str, *replaced: tuple[str, str]) -> list[str]:
 
 def piped(data: Path) -> list[str]:
     """The guide's copy of the files of a folder."""
-    found = re.search(r"tar --create .+", SECTION)
-    assert found is not None
-    assert "/data " in found[0]
-    return ["bash", "-o", "pipefail", "-c", found[0].replace("/data ", f"{data} ")]
+    match = re.search(r"tar --create .+", SECTION)
+    assert match is not None
+    assert "/data " in match[0]
+    return ["bash", "-o", "pipefail", "-c", match[0].replace("/data ", f"{data} ")]
 
 
 def run(arguments: list[str], folder: Path, programs: Path | None = None) -> None:
     path = f"{programs or ''}{os.pathsep}{Path(sys.executable).parent}{os.pathsep}{os.environ['PATH']}"
-    done = subprocess.run(
+    process = subprocess.run(
         arguments, cwd=folder, env={**os.environ, "PATH": path}, capture_output=True, text=True, check=False
     )
     # a sweep that goes on puts files into its folder, and the service its mark beside them: no fault by the guide
     grown = all(
-        re.fullmatch(r"tar: results(/\w+)?: file changed as we read it", line) for line in done.stderr.splitlines()
+        re.fullmatch(r"tar: results(/\w+)?: file changed as we read it", line) for line in process.stderr.splitlines()
     )
-    assert done.returncode == 0 or (done.returncode == 1 and done.stderr and grown), done.stderr
+    assert process.returncode == 0 or (process.returncode == 1 and process.stderr and grown), process.stderr
 
 
 def interrupted(house: House, while_running: list[tuple[list[str], Path, Path | None]]) -> tuple[str, int]:

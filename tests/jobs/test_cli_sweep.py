@@ -36,9 +36,9 @@ def written(folder: Path, body: dict[str, Any]) -> str:
 
 def run(*arguments: str) -> "subprocess.CompletedProcess[str]":
     env = {**os.environ, "COUNTERWEIGHT_DATABASE_URL": "postgresql://nobody@127.0.0.1:1/of-the-service"}
-    done = run_command("service", "sweep", *arguments, environment=env)
-    assert "Traceback" not in done.stderr
-    return done
+    process = run_command("service", "sweep", *arguments, environment=env)
+    assert "Traceback" not in process.stderr
+    return process
 
 
 def here(*arguments: str) -> Result:
@@ -48,20 +48,20 @@ def here(*arguments: str) -> Result:
 
 def test_a_table_and_a_file(tmp_path: Path) -> None:
     out = tmp_path / "rows.parquet"
-    done = run(written(tmp_path, optimisations()), "-o", str(out), "--workers", "1")
-    assert done.returncode == 0, done.stderr
+    process = run(written(tmp_path, optimisations()), "-o", str(out), "--workers", "1")
+    assert process.returncode == 0, process.stderr
     assert pq.read_table(out).equals(expected(optimisations()))
-    assert "optimal" in done.stdout
-    assert "Smallest peak force" in done.stdout
-    assert f"{out.name}: 6 rows" in done.stdout.replace("\n", "")
+    assert "optimal" in process.stdout
+    assert "Smallest peak force" in process.stdout
+    assert f"{out.name}: 6 rows" in process.stdout.replace("\n", "")
     assert sorted(path.name for path in tmp_path.iterdir()) == ["rows.parquet", "sweep.json"]
 
 
 def test_designs_without_a_certified_answer_give_1(tmp_path: Path) -> None:
     out = tmp_path / "rows.csv"
-    done = run(written(tmp_path, analyses(4, 10)), "-o", str(out), "--json", "--folder", str(tmp_path / "work"))
-    state = json.loads(done.stdout)
-    assert (done.returncode, state["state"], state["done"]) == (1, "done", 40)
+    process = run(written(tmp_path, analyses(4, 10)), "-o", str(out), "--json", "--folder", str(tmp_path / "work"))
+    state = json.loads(process.stdout)
+    assert (process.returncode, state["state"], state["done"]) == (1, "done", 40)
     assert (state["failed"], state["invalid"]) == (0, 4)
     assert pa_csv.read_csv(out).num_rows == 40
     assert json.loads((tmp_path / "rows.csv-metadata.json").read_text())["request"]["task"] == "analyze"
@@ -86,16 +86,16 @@ def test_an_interrupted_sweep_goes_on(tmp_path: Path, ending: signal.Signals) ->
             assert time.monotonic() < deadline
             time.sleep(0.01)
         first.send_signal(ending)
-        _, said = first.communicate(timeout=180)
+        _, value = first.communicate(timeout=180)
     assert not out.exists()
     if ending == signal.SIGINT:
         assert first.returncode == 130
-        assert "the same command goes on from there" in said
-    other = here(written(tmp_path, optimisations()), "-o", str(out))
-    assert (other.exit_code, "another sweep" in other.stderr) == (2, True)
-    done = run(written(tmp_path, body), "-o", str(out), "--workers", "2")
-    assert done.returncode == 1
-    assert "going on with the sweep" in done.stderr
+        assert "the same command goes on from there" in value
+    process = here(written(tmp_path, optimisations()), "-o", str(out))
+    assert (process.exit_code, "another sweep" in process.stderr) == (2, True)
+    command = run(written(tmp_path, body), "-o", str(out), "--workers", "2")
+    assert command.returncode == 1
+    assert "going on with the sweep" in command.stderr
     assert pq.read_table(out, columns=["index"])["index"].to_pylist() == list(range(100))
 
 
@@ -112,7 +112,7 @@ def test_an_interrupted_sweep_goes_on(tmp_path: Path, ending: signal.Signals) ->
 def test_whenever_it_is_interrupted_it_says_so_and_goes_on(
     where: str, during: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    def interrupted(*_given: object, **_more: object) -> None:
+    def interrupted(*arguments: object, **_more: object) -> None:
         raise KeyboardInterrupt
 
     out = tmp_path / "rows.parquet"
@@ -121,15 +121,15 @@ def test_whenever_it_is_interrupted_it_says_so_and_goes_on(
         # the package has a command of the name of its module
         *inside, name = during.split(".")
         patch.setattr(attrgetter(*inside)(import_module(where)) if inside else import_module(where), name, interrupted)
-        done = here(*command)
-    assert done.exit_code == 130
-    assert "the same command goes on from there" in done.stderr
+        process = here(*command)
+    assert process.exit_code == 130
+    assert "the same command goes on from there" in process.stderr
     assert here(*command).exit_code == 0
     assert pq.read_table(out).equals(expected(optimisations()))
 
 
 @pytest.mark.parametrize(
-    ("arguments", "said"),
+    ("arguments", "text"),
     [
         ((), "--output"),
         (("-o", "rows.ods"), "the name must end in"),
@@ -139,12 +139,12 @@ def test_whenever_it_is_interrupted_it_says_so_and_goes_on(
     ],
 )
 def test_what_cannot_be_done(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, arguments: tuple[str, ...], said: str
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, arguments: tuple[str, ...], text: str
 ) -> None:
     monkeypatch.chdir(tmp_path)
-    done = here(written(tmp_path, optimisations()), *arguments)
-    assert (done.exit_code, done.stdout) == (2, "")
-    assert said in done.stderr
+    process = here(written(tmp_path, optimisations()), *arguments)
+    assert (process.exit_code, process.stdout) == (2, "")
+    assert text in process.stderr
 
 
 @pytest.mark.parametrize(
@@ -163,18 +163,18 @@ def test_a_row_that_broke_down_is_no_infeasible_one(
 
 
 def test_a_bad_sweep_names_the_field(tmp_path: Path) -> None:
-    done = here(written(tmp_path, optimisations(axes=[{"path": "/machine/nothing", "values": [1]}])), "-o", "x.csv")
-    assert done.exit_code == 2
-    assert "/axes/0/path" in done.stderr
+    process = here(written(tmp_path, optimisations(axes=[{"path": "/machine/nothing", "values": [1]}])), "-o", "x.csv")
+    assert process.exit_code == 2
+    assert "/axes/0/path" in process.stderr
 
 
 def test_a_dry_run(tmp_path: Path) -> None:
     file = written(tmp_path, optimisations())
     assert json.loads(here(file, "--dry-run", "--json").stdout)["total"] == 6
     assert json.loads(here(file, "--dry-run", "--json", "--workers", "3").stdout)["workers"] == 3
-    done = here(file, "--dry-run", "--workers", "3")
-    assert "until it is done, 3 workers, about s" in done.stdout
-    assert "The time assumes 3 worker(s) with a core each" in done.stdout
-    assert done.exit_code == 0
-    assert "force_peak_N" in done.stdout
+    process = here(file, "--dry-run", "--workers", "3")
+    assert "until it is done, 3 workers, about s" in process.stdout
+    assert "The time assumes 3 worker(s) with a core each" in process.stdout
+    assert process.exit_code == 0
+    assert "force_peak_N" in process.stdout
     assert [path.name for path in tmp_path.iterdir()] == ["sweep.json"]

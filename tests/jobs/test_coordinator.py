@@ -91,27 +91,27 @@ def test_processes(house: House) -> None:
 def test_a_killed_worker_costs_a_retry(house: House, tmp_path: Path) -> None:
     job = house.submit(total=60, chunk_rows=5, kill_at=31, kill_once=str(tmp_path / "killed"))
     with house.coordinator(engine("processes", 2)):
-        found = house.wait(job)
+        outcome = house.wait(job)
     assert (tmp_path / "killed").exists()
-    assert (found.state, found.done, found.failed) == ("done", 60, 0)
+    assert (outcome.state, outcome.done, outcome.failed) == ("done", 60, 0)
     assert house.rows(job).equals(synthetic.rows(0, 60))
 
 
 def test_a_row_that_kills_every_worker_is_the_only_one_that_fails(house: House) -> None:
     job = house.submit(total=12, chunk_rows=4, kill_at=6)
     with house.coordinator(engine("processes", 1), Pace(poll_s=0.05, tries=2)):
-        found = house.wait(job)
-    assert (found.state, found.done, found.failed) == ("done", 12, 1)
+        outcome = house.wait(job)
+    assert (outcome.state, outcome.done, outcome.failed) == ("done", 12, 1)
     assert house.rows(job).equals(synthetic.rows(0, 12, failed=(6,)))
 
 
 def test_a_row_that_raises_is_the_only_one_that_fails(house: House, tmp_path: Path) -> None:
     job = house.submit(total=100, chunk_rows=50, raise_at=73)
-    other = house.submit(total=10, raise_at=3, raise_once=str(tmp_path / "raised"))
+    future = house.submit(total=10, raise_at=3, raise_once=str(tmp_path / "raised"))
     with house.coordinator(threads()):
-        found = house.wait(job)
-        assert house.wait(other).failed == 0
-    assert (found.state, found.done, found.failed) == ("done", 100, 1)
+        outcome = house.wait(job)
+        assert house.wait(future).failed == 0
+    assert (outcome.state, outcome.done, outcome.failed) == ("done", 100, 1)
     assert house.rows(job).equals(synthetic.rows(0, 100, failed=(73,)))
 
 
@@ -132,10 +132,10 @@ def test_what_workers_find_wrong_is_logged_and_counted(house: House, caplog: pyt
 def test_a_job_with_too_many_faults_fails(house: House) -> None:
     job = house.submit(total=100, chunk_rows=50, raise_at=73)
     with house.coordinator(threads(), Pace(poll_s=0.05, max_faults=2)):
-        found = house.wait(job)
-    assert found.state == "failed"
-    assert found.error == "too many rows cannot be computed, the last because ArithmeticError: asked for"
-    assert found.done == house.rows(job).num_rows
+        outcome = house.wait(job)
+    assert outcome.state == "failed"
+    assert outcome.error == "too many rows cannot be computed, the last because ArithmeticError: asked for"
+    assert outcome.done == house.rows(job).num_rows
 
 
 def test_a_cancelled_job_ends_soon_and_keeps_its_rows(house: House, tmp_path: Path) -> None:
@@ -147,11 +147,11 @@ def test_a_cancelled_job_ends_soon_and_keeps_its_rows(house: House, tmp_path: Pa
         house.store.cancel(job)
         house.store.cancel(endless)
         house.files.stop(endless)
-        done = house.store.get(job).done
-        assert done == 10
+        count = house.store.get(job).done
+        assert count == 10
         # the workers are free again
         assert house.wait(house.submit(total=10), timeout=180).state == "done"
-    assert house.rows(job).num_rows == done == house.store.get(job).done
+    assert house.rows(job).num_rows == count == house.store.get(job).done
     house.store.resume(job)
     go.touch()
     with house.coordinator(threads(2)):
@@ -177,8 +177,8 @@ def test_a_stop_parks_and_a_start_goes_on(house: House, tmp_path: Path) -> None:
 def test_two_coordinators_share_a_job(any_house: House) -> None:
     job = any_house.submit(total=200, chunk_rows=2, sleep_s=0.01)
     with any_house.coordinator(threads()), any_house.coordinator(threads()):
-        found = any_house.wait(job)
-    assert (found.state, found.done) == ("done", 200)
+        outcome = any_house.wait(job)
+    assert (outcome.state, outcome.done) == ("done", 200)
     assert any_house.rows(job).equals(synthetic.rows(0, 200))
 
 
@@ -205,8 +205,8 @@ def test_a_file_that_cannot_be_written_fails_the_job(house: House, monkeypatch: 
 
     monkeypatch.setattr(JobFiles, "keep", breaks)
     with house.coordinator(threads(1)):
-        found = house.wait(job)
-    assert (found.state, found.error) == ("failed", f"rows 20 to 29 cannot be written: {os.strerror(code)}")
+        outcome = house.wait(job)
+    assert (outcome.state, outcome.error) == ("failed", f"rows 20 to 29 cannot be written: {os.strerror(code)}")
     assert house.rows(job).equals(synthetic.rows(0, 20))
     monkeypatch.undo()
 
@@ -220,11 +220,11 @@ def test_a_disk_that_is_really_full(tmp_path: Path, synthetic_kind: None) -> Non
             while house.store.get(job).active and coordinator.verdict(job) is None:
                 assert time.monotonic() < deadline
                 time.sleep(0.02)
-            found = house.store.get(job)
-            reason = found.error or coordinator.verdict(job) or ""
+            record = house.store.get(job)
+            reason = record.error or coordinator.verdict(job) or ""
         assert "No space left" in reason or "full" in reason
-        assert 0 < found.done < 100_000
-        assert house.rows(job).equals(synthetic.rows(0, found.done))
+        assert 0 < record.done < 100_000
+        assert house.rows(job).equals(synthetic.rows(0, record.done))
         house.database.close()
 
 
@@ -234,13 +234,13 @@ def test_a_locked_database_fails_nothing(tmp_path: Path) -> None:
     job = house.submit(total=200, chunk_rows=2, sleep_s=0.02, held_from=100, held_until=str(go))
     with house.coordinator(threads()) as coordinator:
         house.wait_for_rows(job)
-        other = sqlite3.connect(tmp_path / "jobs.sqlite", timeout=180, isolation_level=None)
-        other.execute("BEGIN IMMEDIATE")
+        connection = sqlite3.connect(tmp_path / "jobs.sqlite", timeout=180, isolation_level=None)
+        connection.execute("BEGIN IMMEDIATE")
         # longer than leases and attempts last
         time.sleep(3)
         assert (coordinator.verdict(job), house.store.get(job).state) == (None, "running")
-        other.execute("ROLLBACK")
-        other.close()
+        connection.execute("ROLLBACK")
+        connection.close()
         go.touch()
         assert house.wait(job).state == "done"
     assert house.rows(job).equals(synthetic.rows(0, 200))
@@ -253,11 +253,11 @@ def test_a_database_that_is_locked_for_a_moment_costs_nothing(tmp_path: Path) ->
     with house.coordinator(threads(), QUICK):
         for _ in range(3):
             house.wait_for_rows(job)
-            with sqlite3.connect(tmp_path / "jobs.sqlite", timeout=180, isolation_level=None) as other:
-                other.execute("BEGIN IMMEDIATE")
+            with sqlite3.connect(tmp_path / "jobs.sqlite", timeout=180, isolation_level=None) as connection:
+                connection.execute("BEGIN IMMEDIATE")
                 time.sleep(0.3)
-                other.execute("ROLLBACK")
-            other.close()
+                connection.execute("ROLLBACK")
+            connection.close()
         assert house.wait(job).state == "done"
     assert house.rows(job).equals(synthetic.rows(0, 50))
     house.database.close()
@@ -328,9 +328,9 @@ def test_a_job_of_a_later_version_is_left_to_it(
     own = house.submit(total=20, chunk_rows=5)
     with house.coordinator(threads(1)):
         assert house.wait(own).state == "done"
-    found = house.store.get(job.id)
+    state = house.store.get(job.id)
     # before, each of its rows was tried alone, and the job failed
-    assert (found.active, found.done, found.failed, found.error) == (True, 0, 0, None)
+    assert (state.active, state.done, state.failed, state.error) == (True, 0, 0, None)
     assert sum("does not know" in record.getMessage() for record in caplog.records) == 1
     # a service of that version, beside this one or after a step back and forth
     monkeypatch.setitem(KINDS, "sweep", replace(KINDS["sweep"], later=lambda _: False))  # type: ignore[arg-type]
@@ -345,8 +345,8 @@ def test_a_kind_of_a_later_version_is_left_to_it(house: House, monkeypatch: pyte
     own = house.submit(total=20, chunk_rows=5)
     with house.coordinator(threads(1)):
         assert house.wait(own).state == "done"
-    found = house.store.get(job.id)
-    assert (found.active, found.done, found.failed, found.error) == (True, 0, 0, None)
+    record = house.store.get(job.id)
+    assert (record.active, record.done, record.failed, record.error) == (True, 0, 0, None)
     monkeypatch.setitem(KINDS, "newest", synthetic.KIND)  # type: ignore[arg-type]
     with house.coordinator(threads(1)):
         assert house.wait(job.id).state == "done"
@@ -382,7 +382,7 @@ def test_chunks_are_computed_in_their_order(house: House) -> None:
     order: list[int] = []
 
     def run(*arguments: Any) -> ChunkResult:
-        order.append(next(one for one in arguments if isinstance(one, int)))
+        order.append(next(argument for argument in arguments if isinstance(argument, int)))
         return synthetic.run(*arguments)
 
     class Alone(Threads):

@@ -45,14 +45,14 @@ def test_flips_are_refused_and_repaired(tmp_path: Path) -> None:
 @pytest.mark.parametrize(("name", "points"), [("crashes", 5), ("statements", 2)])
 def test_crashes_lose_nothing_and_leave_nothing(name: str, points: int) -> None:
     # a process of its own, as it forks; at all two thousand system calls and seven hundred statements: without --points
-    done = run(f"tests.jobs.{name}", "--points", str(points))
-    if done.returncode == 2:
-        pytest.skip(done.stderr)
-    assert done.returncode == 0, done.stderr
-    found = json.loads(done.stdout)
-    assert found["of"] > 500
-    assert found["points"] > 0.8 * points
-    assert (found["rows_lost"], found["orphans"]) == (0, 0)
+    process = run(f"tests.jobs.{name}", "--points", str(points))
+    if process.returncode == 2:
+        pytest.skip(process.stderr)
+    assert process.returncode == 0, process.stderr
+    front = json.loads(process.stdout)
+    assert front["of"] > 500
+    assert front["points"] > 0.8 * points
+    assert (front["rows_lost"], front["orphans"]) == (0, 0)
 
 
 def test_damage_over_http_is_an_error_or_a_broken_answer(tmp_path: Path) -> None:
@@ -95,8 +95,8 @@ def test_a_cancelled_job_repairs_when_it_goes_on(house: House, tmp_path: Path) -
         house.files.piece(job, house.store.pieces(job)[0]).unlink()
         with pytest.raises(RowsDamaged, match="rows 0 to 9 is missing"):
             jobs.rows(house.store.get(job), synthetic.SCHEMA)
-        found = house.store.get(job)
-        assert (found.state, found.done, found.repaired) == ("cancelled", 0, 1)
+        record = house.store.get(job)
+        assert (record.state, record.done, record.repaired) == ("cancelled", 0, 1)
         house.store.resume(job)
         go.touch()
         assert house.wait(job).state == "done"
@@ -125,12 +125,12 @@ def test_a_quota(tmp_path: Path) -> None:
         # four files of a block each, besides the request
         assert 4 * 4096 < house.wait(first).bytes < 6 * 4096
         large = house.submit(total=4_000_000, chunk_rows=40_000, owner="one")
-        found = house.wait(large)
-        assert (found.state, found.error) == (
+        job = house.wait(large)
+        assert (job.state, job.error) == (
             "failed",
             "the 6.0 MB of its owner on disk are used up; remove sweeps, then resume this one",
         )
-        assert house.rows(large).num_rows == found.done > 0
+        assert house.rows(large).num_rows == job.done > 0
         # others are not concerned
         assert house.wait(house.submit(total=100, chunk_rows=10, owner="two")).state == "done"
         house.retention.mark_removed(first)
@@ -195,9 +195,9 @@ def test_folders_of_nobody_are_removed_but_not_those_of_another_database(house: 
     (house.files.folder("0" * 32)).mkdir()
     housekeeping.tidy()
     assert house.files.folders() == [job]
-    other = Database(tmp_path / "other.sqlite")
-    Housekeeping(Store(other), Retention(other), house.files).tidy()
-    other.close()
+    database = Database(tmp_path / "other.sqlite")
+    Housekeeping(Store(database), Retention(database), house.files).tidy()
+    database.close()
     assert house.files.folders() == [job]
 
 
@@ -244,8 +244,8 @@ def test_a_clock_that_jumps_delays_nothing_and_ends_nothing(house: House, jump: 
     leases = Leases(house.database, limits, clock=lambda: wall)
     retention = Retention(house.database, clock=lambda: monotonic)
     retention.mark_expired()
-    kept = house.submit(total=1)
-    house.store.cancel(kept)
+    future = house.submit(total=1)
+    house.store.cancel(future)
     job = house.submit(total=1)
     wall += jump
     held = leases.claim("one", 15.0)
@@ -262,18 +262,18 @@ def test_a_clock_that_jumps_delays_nothing_and_ends_nothing(house: House, jump: 
 
 def test_time_is_lived_once_by_all_services(house: House) -> None:
     now = 0.0
-    one, two = (Retention(house.database, clock=lambda: now) for _ in range(2))
+    retention, two = (Retention(house.database, clock=lambda: now) for _ in range(2))
     store = Store(house.database, Limits(keep_s=100.0))
     job = house.submit()
     store.cancel(job)
     for moment in (0.0, 40.0, 80.0, 100.0):
         now = moment
-        one.mark_expired()
+        retention.mark_expired()
         two.mark_expired()
-        assert one.removed() == []
+        assert retention.removed() == []
     now = 101.0
     two.mark_expired()
-    assert one.removed() == [job]
+    assert retention.removed() == [job]
 
 
 # ---- selections

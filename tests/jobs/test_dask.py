@@ -41,17 +41,17 @@ def address() -> Iterator[str]:
 def test_a_cluster(house: House, address: str) -> None:
     job = house.submit(total=200, chunk_rows=7)
     with house.coordinator(engine(f"dask:{address}", 1)):
-        found = house.wait(job)
-    assert (found.state, found.done) == ("done", 200)
+        outcome = house.wait(job)
+    assert (outcome.state, outcome.done) == ("done", 200)
     assert house.rows(job).equals(synthetic.rows(0, 200))
 
 
 def test_a_killed_worker_of_the_cluster_costs_a_retry(house: House, address: str, tmp_path: Path) -> None:
     job = house.submit(total=60, chunk_rows=5, kill_at=31, kill_once=str(tmp_path / "killed"))
     with house.coordinator(engine(f"dask:{address}", 1)):
-        found = house.wait(job)
+        outcome = house.wait(job)
     assert (tmp_path / "killed").exists()
-    assert (found.state, found.failed) == ("done", 0)
+    assert (outcome.state, outcome.failed) == ("done", 0)
     assert house.rows(job).equals(synthetic.rows(0, 60))
 
 

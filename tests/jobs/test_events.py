@@ -49,9 +49,9 @@ def at_once(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(module, "_HEARTBEAT_S", 0.05)
 
 
-def told(jobs: Jobs, ids: list[str]) -> list[bytes]:
+def streams(jobs: Jobs, ids: list[str]) -> list[bytes]:
     """What each of some streams tells from the first event to its end."""
-    found = [b""] * len(ids)
+    texts = [b""] * len(ids)
 
     async def every_weight() -> None:
         watch = Watch(jobs)  # type: ignore[arg-type]
@@ -59,7 +59,7 @@ def told(jobs: Jobs, ids: list[str]) -> list[bytes]:
         async def stream(number: int, id: str) -> None:  # noqa: A002
             first = news(jobs, replace(JOB, id=id), "/x")  # type: ignore[arg-type]
             async for piece in events(first, lambda: watch.next(id, "/x"), None, lambda: False):
-                found[number] += piece
+                texts[number] += piece
 
         async with anyio.create_task_group() as tasks:
             tasks.start_soon(watch.run)
@@ -69,17 +69,17 @@ def told(jobs: Jobs, ids: list[str]) -> list[bytes]:
             tasks.cancel_scope.cancel()
 
     anyio.run(every_weight)
-    return found
+    return texts
 
 
 def test_every_change_is_told_to_all_who_watch_at_the_cost_of_one_look() -> None:
     jobs = Jobs()
-    found = told(jobs, [JOB.id] * 50 + ["b" * 32] * 50)
+    text = streams(jobs, [JOB.id] * 50 + ["b" * 32] * 50)
     expected = b"retry: 2000\n\n" + b"".join(
         f'id: {version}\nevent: {name}\ndata: "/x {version}"\n\n'.encode()
         for version, name in ((1, "progress"), (2, "progress"), (3, "end"))
     )
-    assert found == [expected] * 100
+    assert text == [expected] * 100
     assert jobs.looks == 2
     # the first of each stream by itself, then one for each change of each job
     assert jobs.states == 100 + 4
@@ -90,19 +90,19 @@ def test_a_stream_outlives_a_database_that_is_away() -> None:
     jobs.away = True
 
     async def comes_back() -> bytes:
-        watch, found = Watch(jobs), b""  # type: ignore[arg-type]
+        watch, text = Watch(jobs), b""  # type: ignore[arg-type]
         async with anyio.create_task_group() as tasks:
             tasks.start_soon(watch.run)
             first = news(jobs, JOB, "")  # type: ignore[arg-type]
             async for piece in events(first, lambda: watch.next(JOB.id, ""), None, lambda: False):
-                found += piece
-                jobs.away = b"does not answer" not in found
+                text += piece
+                jobs.away = b"does not answer" not in text
             tasks.cancel_scope.cancel()
-        return found
+        return text
 
-    found = anyio.run(comes_back)
-    assert found.count(b": the job database does not answer\n\n") == 1
-    assert found.endswith(b'event: end\ndata: " 3"\n\n')
+    content = anyio.run(comes_back)
+    assert content.count(b": the job database does not answer\n\n") == 1
+    assert content.endswith(b'event: end\ndata: " 3"\n\n')
 
 
 def test_a_job_that_is_gone_is_unknown() -> None:

@@ -34,8 +34,8 @@ _VALUES = st.recursive(
 
 @pytest.fixture
 def client(tmp_path: Path) -> Iterator[TestClient]:
-    with ready(tmp_path) as found:
-        yield found
+    with ready(tmp_path) as server:
+        yield server
 
 
 def post(client: TestClient, path: str, body: object) -> Any:
@@ -61,8 +61,8 @@ def test_a_version_with_new_defaults_knows_the_same_request(
     assert (first.status_code, again.status_code) == (202, 202)
     assert first.headers["location"] == again.headers["location"]
     assert again.headers["idempotency-replayed"] == "true"
-    other = post(client, path, changed(body))
-    assert (other.status_code, other.json()["title"]) == (409, "Key reused")
+    response = post(client, path, changed(body))
+    assert (response.status_code, response.json()["title"]) == (409, "Key reused")
 
 
 @pytest.mark.parametrize(("path", "model", "body"), [_SWEEP, _FRONT])
@@ -80,19 +80,19 @@ def test_a_fingerprint_of_an_earlier_version_is_no_other_request(
         first = post(client, path, body)
     with closing(sqlite3.connect(tmp_path / "jobs.sqlite")) as database, database:
         ((kind, request),) = database.execute("SELECT kind, request FROM jobs").fetchall()
-        said = json.dumps([kind, json.loads(request)], sort_keys=True, separators=(",", ":"))
-        database.execute("UPDATE jobs SET digest = ?", (hashlib.sha256(said.encode()).hexdigest(),))
-    again, other = post(client, path, body), post(client, path, changed(body))
+        text = json.dumps([kind, json.loads(request)], sort_keys=True, separators=(",", ":"))
+        database.execute("UPDATE jobs SET digest = ?", (hashlib.sha256(text.encode()).hexdigest(),))
+    again, response = post(client, path, body), post(client, path, changed(body))
     assert (again.status_code, again.headers["location"]) == (202, first.headers["location"])
-    assert (other.status_code, other.json()["title"]) == (409, "Key reused")
+    assert (response.status_code, response.json()["title"]) == (409, "Key reused")
 
 
 def test_a_key_of_an_earlier_version_is_that_of_its_kind(house: House) -> None:
     body = json.dumps({"machine": MACHINE}).encode()
     house.store.submit(Order("optimize", body, "0" * 64, key="k"))
-    asked = ParetoRequest.model_validate_json(body).model_dump_json().encode()
+    text = ParetoRequest.model_validate_json(body).model_dump_json().encode()
     with pytest.raises(KeyReused):
-        house.store.submit(Order("pareto", asked, fingerprint("pareto", body), key="k"))
+        house.store.submit(Order("pareto", text, fingerprint("pareto", body), key="k"))
 
 
 def changed(body: dict[str, Any]) -> dict[str, Any]:

@@ -44,15 +44,15 @@ def table(rows: list[dict[str, object]]) -> pa.Table:
 
 
 def test_parquet_and_arrow_come_back_as_they_were_with_units_and_metadata() -> None:
-    given_table = table(ROWS)
-    for found in (
-        pq.read_table(io.BytesIO(encoded("parquet", given_table))),
-        pa.ipc.open_stream(encoded("arrow", given_table)).read_all(),
-        pa.ipc.open_file(b"".join(ARROW_FILE.encode(SCHEMA, given_table.to_batches()))).read_all(),
+    sheet = table(ROWS)
+    for single_table in (
+        pq.read_table(io.BytesIO(encoded("parquet", sheet))),
+        pa.ipc.open_stream(encoded("arrow", sheet)).read_all(),
+        pa.ipc.open_file(b"".join(ARROW_FILE.encode(SCHEMA, sheet.to_batches()))).read_all(),
     ):
-        assert found.equals(given_table)
-        assert found.schema.metadata[b"counterweight.seed"] == b"7"
-        assert found.schema.field("force_peak_N").metadata[b"unit"] == b"N"
+        assert single_table.equals(sheet)
+        assert single_table.schema.metadata[b"counterweight.seed"] == b"7"
+        assert single_table.schema.field("force_peak_N").metadata[b"unit"] == b"N"
 
 
 def test_ndjson_comes_back_as_it_was() -> None:
@@ -89,8 +89,8 @@ def test_no_cell_of_csv_is_a_formula_whatever_the_separator_is_taken_for(rows: l
             for cell in line:
                 assert not cell.strip(" \t\r\n\xa0\u3000\ufeff\u200b").startswith(_SIGNS), (separator, cell)
     # the bill of material says the same
-    found = [tuple(line) for line in csv.reader(io.StringIO(written, newline=""))]
-    assert found[1:] == [tuple(map(inert, row)) for row in rows]
+    lines = [tuple(line) for line in csv.reader(io.StringIO(written, newline=""))]
+    assert lines[1:] == [tuple(map(inert, row)) for row in rows]
 
 
 @given(st.lists(st.floats(allow_nan=False, allow_infinity=False), min_size=1))
@@ -98,9 +98,9 @@ def test_every_double_survives_as_text(values: list[float]) -> None:
     rows = table([{"index": i, "force_peak_N": value} for i, value in enumerate(values)])
     as_json = [json.loads(line)["force_peak_N"] for line in encoded("ndjson", rows).splitlines()]
     as_csv = [row["force_peak_N"] for row in csv.DictReader(io.StringIO(encoded("csv", rows).decode()))]
-    for value, one, other in zip(values, as_json, as_csv, strict=True):
-        assert (float(one), float(other)) == (value, value)
-        assert math.copysign(1, float(other)) == math.copysign(1, value)
+    for value, first, second in zip(values, as_json, as_csv, strict=True):
+        assert (float(first), float(second)) == (value, value)
+        assert math.copysign(1, float(second)) == math.copysign(1, value)
 
 
 @pytest.mark.parametrize("name", ["ndjson", "csv", "parquet", "arrow"])

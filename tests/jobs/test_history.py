@@ -17,23 +17,23 @@ JOB = "f" * 32
 def test_kills_of_services_and_of_their_database(tmp_path: Path) -> None:
     # each of them once; three hundred, and 1,700 faults of the network: python -m tests.jobs.history
     try:
-        found, done = run(tmp_path, kills=4, seed=60, most=3)
+        texts, fields = run(tmp_path, kills=4, seed=60, most=3)
     except postgres.Missing as missing:
         pytest.skip(str(missing))
-    assert found == []
-    assert done["kills"] == {"one": 1, "two": 1, "three": 1, "database": 1}
-    assert sum(done["network"].values()) > 0  # type: ignore[attr-defined]
-    assert done["sweeps"] > 0  # type: ignore[operator]
-    assert done["rows_read"] >= 1500  # type: ignore[operator]
+    assert texts == []
+    assert fields["kills"] == {"one": 1, "two": 1, "three": 1, "database": 1}
+    assert sum(fields["network"].values()) > 0  # type: ignore[attr-defined]
+    assert fields["sweeps"] > 0  # type: ignore[operator]
+    assert fields["rows_read"] >= 1500  # type: ignore[operator]
 
 
-def call(action: Action, began: float, status: int | None = 200, state: str = "", done: int = 0, **more: Any) -> Call:
+def call(action: Action, began: float, status: int | None = 200, state: str = "", count: int = 0, **more: Any) -> Call:
     """One of a second, about the sweep of all these histories."""
     about: dict[str, Any] = {
         "service": "one",
         "subject": {"submit": "key", "list": ""}.get(action, JOB),
         "ended": began + 1,
-        "said": {"id": JOB, "state": state, "done": done} if state else None,
+        "document": {"id": JOB, "state": state, "done": count} if state else None,
         "ids": frozenset([JOB] if state else []),
     }
     return Call(action=action, began=began, status=status, **{**about, **more})
@@ -70,8 +70,8 @@ WRONG: dict[str, list[Call]] = {
 
 @pytest.mark.parametrize("what", WRONG)
 def test_what_cannot_be_is_found(what: str) -> None:
-    found = contradictions([SUBMITTED, *WRONG[what]], {})
-    assert any(what in one for one in found), found
+    actual_contradictions = contradictions([SUBMITTED, *WRONG[what]], {})
+    assert any(what in actual_contradiction for actual_contradiction in actual_contradictions), actual_contradictions
 
 
 def test_what_can_be_is_not_found() -> None:

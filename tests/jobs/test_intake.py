@@ -70,9 +70,9 @@ class Large:
         assert isinstance(start, int)
         assert isinstance(stop, int)
         self.held.append(stop - start)
-        done: Future[ChunkResult] = Future()
-        done.set_result(synthetic.run("synthetic", b"{}", start, stop, ""))
-        return done
+        future: Future[ChunkResult] = Future()
+        future.set_result(synthetic.run("synthetic", b"{}", start, stop, ""))
+        return future
 
     def window(self) -> int:
         return 160
@@ -83,25 +83,27 @@ class Large:
 
 def test_a_large_engine_is_filled_by_turns_and_emptied_in_few_transactions(house: House) -> None:
     job = house.submit(total=120, chunk_rows=1)
-    other = house.submit(total=120, chunk_rows=1)
+    future = house.submit(total=120, chunk_rows=1)
     large = Large()
     coordinator = house.coordinator_on(Engine(lambda: large), Pace(lease_s=3600.0))
     coordinator._step()
     # analytic: the window is full, half of it of each job
     assert len(large.held) == 160
-    assert sorted(_leased(house, each) for each in (job, other)) == [80, 80]
+    assert sorted(_leased(house, text) for text in (job, future)) == [80, 80]
     before = house.store.get(job).version
     coordinator._step()
-    assert house.store.get(job).done + house.store.get(other).done == 100
+    assert house.store.get(job).done + house.store.get(future).done == 100
     assert house.store.get(job).version == before + 1
     for _ in range(3):
         coordinator._step()
-    for each in (job, other):
-        assert house.store.get(each).state == "done"
-        assert house.rows(each).equals(synthetic.rows(0, 120))
+    for text in (job, future):
+        assert house.store.get(text).state == "done"
+        assert house.rows(text).equals(synthetic.rows(0, 120))
 
 
 def _leased(house: House, job: str) -> int:
     with house.database.read() as connection:
-        found = connection.exec_driver_sql(f"SELECT count(*) FROM chunks WHERE state = 'leased' AND job = '{job}'")
-        return int(found.scalar_one())
+        cursor_result = connection.exec_driver_sql(
+            f"SELECT count(*) FROM chunks WHERE state = 'leased' AND job = '{job}'"
+        )
+        return int(cursor_result.scalar_one())

@@ -28,7 +28,7 @@ def expected() -> "object":
 @pytest.mark.nightly
 def test_kills_at_random_moments(tmp_path: Path) -> None:
     # a hundred, of longer sweeps: python -m tests.jobs.kills. A hundred chunks take 20 s, and no life lasts as long
-    sweeps, midway = kill(tmp_path, kills=4, seed=7, longest_s=0.5, kills_of_one=2, body=analyses(20, 320))
+    sweeps, midway = kill(tmp_path, kills=4, seed=7, longest_s=0.5, kills_per_process=2, body=analyses(20, 320))
     assert (sweeps, midway) == (2, 2)
 
 
@@ -60,18 +60,20 @@ def test_two_services_share_one_sweep(tmp_path: Path, database: str, request: py
     # as in an upgrade: of two versions, the second of which goes on alone
     later = {VERSION: "99.0.0"}
     with (
-        service(tmp_path, delay_s=0.1, **settings) as one,
+        service(tmp_path, delay_s=0.1, **settings) as server,
         service(tmp_path, delay_s=0.1, more=later, **settings) as two,
     ):
-        versions = [json.loads(each.send("GET", "/v1/version")[2])["version"] for each in (one, two)]
+        versions = [
+            json.loads(single_service.send("GET", "/v1/version")[2])["version"] for single_service in (server, two)
+        ]
         assert versions == [package_version(), "99.0.0"]
-        _, headers, _ = one.send("POST", "/v1/sweeps", SWEEP)
+        _, headers, _ = server.send("POST", "/v1/sweeps", SWEEP)
         path = headers["location"]
         # either knows of it, and one of them is killed on the way
         assert two.read(path)["total"] == 1000
         while two.read(path)["done"] < 200:
             time.sleep(0.05)
-        one.process.kill()
+        server.process.kill()
         assert two.ended(path)["done"] == 1000
         assert two.rows(path).equals(expected())
 

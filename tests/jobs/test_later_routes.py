@@ -12,8 +12,8 @@ from tests.jobs.sweeps import MACHINE
 
 @pytest.fixture(scope="module")
 def client(tmp_path_factory: pytest.TempPathFactory) -> Iterator[TestClient]:
-    with ready(tmp_path_factory.mktemp("data")) as found:
-        yield found
+    with ready(tmp_path_factory.mktemp("data")) as server:
+        yield server
 
 
 @pytest.mark.parametrize(("kind", "more"), [("optimize", {}), ("pareto", {"points": 3})])

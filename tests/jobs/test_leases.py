@@ -24,9 +24,9 @@ ASKED = len(b"{}") + synthetic.SCHEMA.serialize().size
 @pytest.fixture
 def house(tmp_path: Path) -> Iterator[House]:
     """Of results that are kept for some time."""
-    found = House(tmp_path, limits=Limits(keep_s=100.0))
-    yield found
-    found.database.close()
+    jobs_house = House(tmp_path, limits=Limits(keep_s=100.0))
+    yield jobs_house
+    jobs_house.database.close()
 
 
 def computed(house: House, selects: bool = False) -> str:
@@ -39,8 +39,8 @@ def computed(house: House, selects: bool = False) -> str:
 
 def row(house: House, job: str, start: int) -> dict[str, Any]:
     with house.database.read() as connection:
-        found = connection.execute(select(chunks).where(chunks.c.job == job, chunks.c.start == start))
-        return dict(found.mappings().one())
+        cursor_result = connection.execute(select(chunks).where(chunks.c.job == job, chunks.c.start == start))
+        return dict(cursor_result.mappings().one())
 
 
 def ends(house: House, job: str) -> tuple[float | None, float | None]:
@@ -110,13 +110,13 @@ def test_rows_are_selected_again_whose_file_is_damaged(house: House) -> None:
     selection, file = claimed(house), Record(20, 20, "s", 9000)
     for number in (0, 1):
         assert house.leases.finish_selection(selection, 20, 3, file) is None
-        found = house.store.get(job)
-        assert counts(found) == ("done", 20, 5, 3, 3, BYTES + 12288, number)
-        assert (found.selected, found.kept) == (20, 3)
+        record = house.store.get(job)
+        assert counts(record) == ("done", 20, 5, 3, 3, BYTES + 12288, number)
+        assert (record.selected, record.kept) == (20, 3)
         assert house.leases.reopen(job, file)
-        found = house.store.get(job)
-        assert counts(found) == ("running", 20, 5, 3, 3, BYTES, number + 1)
-        assert (found.selected, found.kept) == (0, 0)
+        state = house.store.get(job)
+        assert counts(state) == ("running", 20, 5, 3, 3, BYTES, number + 1)
+        assert (state.selected, state.kept) == (0, 0)
         selection = claimed(house)
         assert (selection.start, selection.stop) == (20, 20)
 
@@ -147,8 +147,8 @@ def test_a_selection_that_is_put_off_waits_for_more_rows(house: House) -> None:
 def test_a_job_goes_on_without_a_selection_that_cannot_be_made(house: House) -> None:
     job = computed(house, selects=True)
     house.leases.refuse_selection(claimed(house), "too many")
-    found = house.store.get(job)
-    assert (found.state, found.error, found.selected, found.kept) == ("done", "too many", 20, 0)
+    record = house.store.get(job)
+    assert (record.state, record.error, record.selected, record.kept) == ("done", "too many", 20, 0)
     assert row(house, job, 20)["state"] == "done"
 
 
@@ -161,18 +161,18 @@ def test_nothing_is_put_off_of_a_job_that_there_is_not(house: House) -> None:
 
 
 def test_a_file_without_a_digest_is_given_one_once(house: House) -> None:
-    job, other = computed(house), computed(house)
+    job, rival = computed(house), computed(house)
     with house.database.write() as connection:
         connection.execute(update(chunks).values(digest=None, bytes=0))
-    before, beside = house.store.get(job), house.store.get(other)
+    before, beside = house.store.get(job), house.store.get(rival)
     for digest, size in (("x", 5000), ("y", 9000)):
         house.leases.adopt(job, Record(0, 10, None, 0), digest, size)
         assert (row(house, job, 0)["digest"], row(house, job, 0)["bytes"]) == ("x", 8192)
         assert house.store.get(job).bytes == before.bytes + 8192
     for start, stop in ((0, 9), (1, 10)):
-        house.leases.adopt(other, Record(start, stop, None, 0), "x", 5000)
-    assert [row(house, job, 10)["digest"], *(row(house, other, start)["digest"] for start in (0, 10))] == [None] * 3
-    assert house.store.get(other) == beside
+        house.leases.adopt(rival, Record(start, stop, None, 0), "x", 5000)
+    assert [row(house, job, 10)["digest"], *(row(house, rival, start)["digest"] for start in (0, 10))] == [None] * 3
+    assert house.store.get(rival) == beside
 
 
 def test_a_chunk_that_is_not_finished_is_given_no_digest(house: House) -> None:
@@ -199,6 +199,6 @@ def test_halves_were_tried_once_and_are_counted_once(house: House) -> None:
 
 def test_an_owner_of_many_jobs_has_as_many_chunks_in_work_as_one_of_one(house: House) -> None:
     first, second = (house.submit(owner="a", number=number) for number in (1, 2))
-    other = house.submit(owner="b")
+    future = house.submit(owner="b")
     turns = [claimed(house).job for _ in range(6)]
-    assert turns == [first, other, second, other, first, other]
+    assert turns == [first, future, second, future, first, future]

@@ -32,14 +32,14 @@ def drawn(path: Path, x: str = "force_peak_N", y: str = "total_mass_kg") -> Resu
 @pytest.mark.parametrize("name", ["rows.parquet", "rows.arrow", "rows.csv"])
 def test_points_are_drawn_whatever_the_format(rows: pa.Table, name: str, tmp_path: Path) -> None:
     export(tmp_path / name, rows.schema, rows.to_batches())
-    done = drawn(tmp_path / name)
-    assert done.exit_code == 0, done.output
+    process = drawn(tmp_path / name)
+    assert process.exit_code == 0, process.output
     # analytic: one speed of five is negative
-    assert "16 designs; 4 without a certified answer left out" in done.output.replace("\n", " ")
+    assert "16 designs; 4 without a certified answer left out" in process.output.replace("\n", " ")
     picture = ElementTree.parse(tmp_path / "rows.svg").getroot()
     # all weigh the same, nothing: the front is the design with the smallest force
     assert len(picture.findall(f"{_SVG}circle")) == 16 + 1
-    texts = [one.text for one in picture.findall(f"{_SVG}text")]
+    texts = [element.text for element in picture.findall(f"{_SVG}text")]
     assert "16 designs, 1 on the front" in texts
 
 
@@ -48,24 +48,26 @@ def test_what_cannot_be_drawn(rows: pa.Table, tmp_path: Path) -> None:
     export(path, rows.schema, rows.to_batches())
     broken = tmp_path / "broken.parquet"
     broken.write_bytes(b"nothing")
-    for done, said in (
+    for drawing, text in (
         (drawn(path, x="mass"), "has no column mass; there are index"),
         (drawn(path, x="status"), "status is no column of numbers"),
         (drawn(tmp_path / "none.parquet"), "cannot read"),
         (drawn(broken), "holds no rows"),
         (drawn(tmp_path / "rows.txt"), "must end in .parquet"),
     ):
-        assert done.exit_code == 2
-        assert said in done.output.replace("\n", " ")
+        assert drawing.exit_code == 2
+        assert text in drawing.output.replace("\n", " ")
 
 
 @given(st.lists(st.tuples(st.integers(0, 9), st.integers(0, 9)), min_size=1, max_size=30))
 def test_the_front_is_what_no_other_beats(points: list[tuple[int, int]]) -> None:
     across, upward = zip(*points, strict=True)
-    found = {points[place] for place in front(across, upward)}
+    positions = {points[place] for place in front(across, upward)}
     # independent: by definition
-    expected = {one for one in points if not any(o != one and o[0] <= one[0] and o[1] <= one[1] for o in points)}
-    assert found == expected
+    expected = {
+        point for point in points if not any(o != point and o[0] <= point[0] and o[1] <= point[1] for o in points)
+    }
+    assert positions == expected
 
 
 def test_an_axis_around_values_far_from_zero() -> None:

@@ -52,8 +52,8 @@ def test_nobody_else_reads_a_sweep(tmp_path: Path, there: bool) -> None:
 
 def test_what_an_earlier_version_left_open_is_closed(tmp_path: Path) -> None:
     data = tmp_path / "data"
-    kept = JobFiles(data / "results")
-    kept.keep("job", 0, 1, b"rows")
+    files = JobFiles(data / "results")
+    files.keep("job", 0, 1, b"rows")
     for ending in ("", "-wal", "-shm"):
         (data / f"jobs.sqlite{ending}").touch()
     (data / "keys.jsonl").touch()

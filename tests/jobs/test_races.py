@@ -25,9 +25,9 @@ def coordinator(house: House) -> Coordinator:
     def never() -> ThreadPoolExecutor:
         raise AssertionError
 
-    found = house.coordinator_on(Engine(never))  # type: ignore[arg-type]
-    found.stop()
-    return found
+    actual_coordinator = house.coordinator_on(Engine(never))  # type: ignore[arg-type]
+    actual_coordinator.stop()
+    return actual_coordinator
 
 
 @pytest.fixture
@@ -42,9 +42,9 @@ def submitted(house: House, selects: bool = True) -> str:
 
 
 def claimed(house: House) -> Chunk:
-    found = house.leases.claim("one", 600.0)
-    assert found is not None
-    return found
+    chunk = house.leases.claim("one", 600.0)
+    assert chunk is not None
+    return chunk
 
 
 def written(house: House, chunk: Chunk, rows: pa.Table | None = None) -> Record:
@@ -124,13 +124,13 @@ def test_a_job_that_is_removed_while_it_is_read_is_unknown(house: House, jobs: O
     job = submitted(house, selects=False)
     finished(house, claimed(house))
     finished(house, claimed(house))
-    found = jobs.get(job)
-    rows = jobs.rows(found, synthetic.SCHEMA)
+    task = jobs.get(job)
+    rows = jobs.rows(task, synthetic.SCHEMA)
     assert jobs.end(job) is None
     with pytest.raises(UnknownJob):
         list(rows.batches)
     with pytest.raises(UnknownJob):
-        jobs.rows(found, synthetic.SCHEMA)
+        jobs.rows(task, synthetic.SCHEMA)
 
 
 def test_a_job_that_ends_again_is_tidied_again(house: House) -> None:
@@ -142,7 +142,7 @@ def test_a_job_that_ends_again_is_tidied_again(house: House) -> None:
     tidy.tidy()
     # all of it between two looks for leftovers
     assert house.leases.reopen(job, damaged)
-    other = written(house, claimed(house), synthetic.rows(0, 10, failed=(3,)))
-    assert house.leases.finish([Computed(first, 1, str(other.digest), other.bytes)]) == [True]
+    record = written(house, claimed(house), synthetic.rows(0, 10, failed=(3,)))
+    assert house.leases.finish([Computed(first, 1, str(record.digest), record.bytes)]) == [True]
     tidy.tidy()
     assert set(house.files.names(job)) == {house.files.piece(job, piece).name for piece in house.store.pieces(job)}

@@ -41,18 +41,18 @@ def test_rates(chunks: list[tuple[float, int]], started: float | None, rate: flo
 def test_a_version_is_read_once() -> None:
     """However many look at a job between two chunks, its chunks are read once; a later version is read again."""
     chunks = finished(2, 4)
-    asked: list[tuple[str, int]] = []
+    values: list[tuple[str, int]] = []
 
     def last_finished(job: str, most: int) -> list[tuple[float, int]]:
-        asked.append((job, most))
+        values.append((job, most))
         return chunks
 
     rate = rate_by_version(last_finished)
     assert [rate("a", 1, 0.0) for _ in range(3)] == [pytest.approx(50.0)] * 3
-    assert asked == [("a", LAST_CHUNKS)]
+    assert values == [("a", LAST_CHUNKS)]
     chunks = finished(1, 2)
     assert (rate("b", 1, 0.0), rate("a", 2, 0.0), rate("a", 1, 0.0)) == pytest.approx((100.0, 100.0, 50.0))
-    assert [job for job, _ in asked] == ["a", "b", "a"]
+    assert [job for job, _ in values] == ["a", "b", "a"]
 
 
 def test_of_many_chunks_the_begin_is_unknown() -> None:

@@ -19,8 +19,8 @@ from tests.jobs.sweeps import MACHINE, MASS, analyses
 
 @pytest.fixture(scope="module")
 def client(tmp_path_factory: pytest.TempPathFactory) -> Iterator[TestClient]:
-    with ready(tmp_path_factory.mktemp("data")) as found:
-        yield found
+    with ready(tmp_path_factory.mktemp("data")) as server:
+        yield server
 
 
 @pytest.fixture(scope="module")
@@ -38,8 +38,8 @@ def test_every_format_holds_the_rows(client: TestClient, sweep: str) -> None:
     for answer in got.values():
         assert (answer.headers["sweep-complete"], answer.headers["sweep-state"]) == ("true", "done")
     kinds = [answer.headers["content-type"].split(";")[0] for answer in got.values()]
-    asked = [client.get(f"{sweep}/results", headers={"Accept": kind}).headers["content-type"] for kind in kinds]
-    assert [kind.split(";")[0] for kind in asked] == kinds
+    texts = [client.get(f"{sweep}/results", headers={"Accept": kind}).headers["content-type"] for kind in kinds]
+    assert [kind.split(";")[0] for kind in texts] == kinds
     # who likes none of them gets the first
     neither = client.get(f"{sweep}/results", headers={"Accept": "image/png"})
     assert neither.headers["content-type"] == got["ndjson"].headers["content-type"]
@@ -61,16 +61,16 @@ def test_the_file_says_what_made_it(client: TestClient, sweep: str) -> None:
 
 def test_pages_and_columns(client: TestClient, sweep: str) -> None:
     following: str | None = f"{sweep}/results?limit=150&columns=status,index"
-    seen: list[dict[str, Any]] = []
+    documents: list[dict[str, Any]] = []
     pages = 0
     while following:
         answer = client.get(following)
-        seen += [json.loads(line) for line in answer.text.splitlines()]
+        documents += [json.loads(line) for line in answer.text.splitlines()]
         links = [link for link in answer.headers["link"].split(", ") if link.endswith('rel="next"')]
         following = links[0][1:].split(">")[0] if links else None
         pages += 1
-    assert (pages, [row["index"] for row in seen]) == (3, list(range(400)))
-    assert all(set(row) == {"index", "status"} for row in seen)
+    assert (pages, [row["index"] for row in documents]) == (3, list(range(400)))
+    assert all(set(row) == {"index", "status"} for row in documents)
     assert client.get(f"{sweep}/results?offset=400").text == ""
     assert client.get(f"{sweep}/results?offset=4000000000000").text == ""
     for wrong in (
@@ -131,12 +131,12 @@ def test_top_and_pareto(client: TestClient) -> None:
     assert json.loads(client.get(f"{path}/results?offset=1&limit=1").text) == best[1]
     path = client.post("/v1/sweeps", json=analyses(pareto=["force_peak_N", "moment_peak_Nm"])).headers["location"]
     state = ended(client, path)
-    kept = [json.loads(line) for line in client.get(f"{path}/results").text.splitlines()]
-    assert state["rows"] == len(kept) > 0
-    for row in kept:
+    documents = [json.loads(line) for line in client.get(f"{path}/results").text.splitlines()]
+    assert state["rows"] == len(documents) > 0
+    for row in documents:
         assert not any(
-            other["force_peak_N"] <= row["force_peak_N"]
-            and other["moment_peak_Nm"] <= row["moment_peak_Nm"]
-            and (other["force_peak_N"], other["moment_peak_Nm"]) != (row["force_peak_N"], row["moment_peak_Nm"])
-            for other in rows
+            line["force_peak_N"] <= row["force_peak_N"]
+            and line["moment_peak_Nm"] <= row["moment_peak_Nm"]
+            and (line["force_peak_N"], line["moment_peak_Nm"]) != (row["force_peak_N"], row["moment_peak_Nm"])
+            for line in rows
         )

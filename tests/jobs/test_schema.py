@@ -29,10 +29,10 @@ DONE, RUNNING, BEST = ("a" * 32, "b" * 32, "c" * 32)
 
 @pytest.fixture(params=["sqlite", "postgresql"])
 def settings(request: pytest.FixtureRequest, tmp_path: Path) -> Settings:
-    given: dict[str, Any] = {"data_dir": tmp_path, "sweep_workers": 1}
+    fields: dict[str, Any] = {"data_dir": tmp_path, "sweep_workers": 1}
     if request.param == "postgresql":
-        given["database_url"] = request.getfixturevalue("postgres_url")
-    return Settings(**given)
+        fields["database_url"] = request.getfixturevalue("postgres_url")
+    return Settings(**fields)
 
 
 def engine_of(settings: Settings) -> Any:
@@ -42,14 +42,14 @@ def engine_of(settings: Settings) -> Any:
     return create_engine(url)
 
 
-def job(id: str, state: str, body: dict[str, Any], done: int) -> dict[str, Any]:  # noqa: A002
+def job(id: str, state: str, body: dict[str, Any], count: int) -> dict[str, Any]:  # noqa: A002
     request = SweepRequest.model_validate(body)
     data = request.model_dump_json().encode()
     columns = run_chunk(data, 0, 1).schema.serialize().to_pybytes()
     ended = None if state == "running" else 2000.0
     about = {"digest": "d", "columns": columns, "faults": 0, "failed": 0, "version": 3, "created": 1000.0}
     return {
-        **{"id": id, "kind": "sweep", "request": data, "state": state, "total": 400, "done": done, **about},
+        **{"id": id, "kind": "sweep", "request": data, "state": state, "total": 400, "done": count, **about},
         **{"ended": ended, "expires": None if ended is None else ended + 100.0},
     }
 
@@ -59,15 +59,15 @@ def write_1(settings: Settings) -> None:
     engine = engine_of(settings)
     with engine.begin() as connection:
         schema_1.metadata.create_all(connection)
-        for id, state, more, done in (  # noqa: A001
+        for id, state, more, count in (  # noqa: A001
             (DONE, "done", {}, 400),
             (RUNNING, "running", {}, 200),
             (BEST, "done", {"top": {"by": "force_peak_N", "count": 3}}, 400),
         ):
-            about = job(id, state, analyses(**more), done)
+            about = job(id, state, analyses(**more), count)
             connection.execute(insert(schema_1.jobs).values(about))
             for start in (0, 200):
-                finished = start < done
+                finished = start < count
                 chunk = {"job": id, "start": start, "stop": start + 200, "state": "done" if finished else "pending"}
                 connection.execute(insert(schema_1.chunks).values(chunk))
                 if finished:
@@ -85,19 +85,19 @@ def test_a_database_of_the_first_release_goes_on(settings: Settings) -> None:
         jobs = desk.of()
         expected = run_chunk(SweepRequest.model_validate(analyses()).model_dump_json().encode(), 0, 400)
         for id in (DONE, RUNNING, BEST):  # noqa: A001
-            while (found := jobs.get(id)).active:
+            while (task := jobs.get(id)).active:
                 time.sleep(0.02)
-            assert (found.state, found.done, found.error) == ("done", 400, None)
+            assert (task.state, task.done, task.error) == ("done", 400, None)
             for _ in range(2):
-                rows = jobs.rows(found, jobs.schema(found))
+                rows = jobs.rows(task, jobs.schema(task))
                 assert rows.complete
                 # independent: computed here
                 assert pa.Table.from_batches(rows.batches).equals(expected)
         best = jobs.get(BEST)
         assert (best.selected, best.kept) == (400, 3)
-        kept = pa.Table.from_batches(jobs.selection(best, jobs.schema(best)).batches)
+        value = pa.Table.from_batches(jobs.selection(best, jobs.schema(best)).batches)
         values = sorted(value for value in expected["force_peak_N"].to_pylist() if value is not None)
-        assert kept["force_peak_N"].to_pylist() == values[:3]
+        assert value["force_peak_N"].to_pylist() == values[:3]
         # what was read has a digest now, and is verified from now on
         assert all(piece.digest for piece in desk._parts.store.pieces(DONE))
         assert json.loads(jobs.schema(best).metadata[b"counterweight.request"])["top"]["count"] == 3
@@ -122,10 +122,10 @@ def test_a_database_without_counts_of_invalid_rows_goes_on(settings: Settings) -
         connection.execute(text("UPDATE schema SET number = 2"))
         connection.execute(text("UPDATE jobs SET failed = 7"))
     desk = JobService(settings)
-    found = desk.of().get(DONE)
+    task = desk.of().get(DONE)
     desk.close()
     # what was counted together stays so
-    assert (found.done, found.failed, found.invalid, found.infeasible) == (400, 7, 0, 0)
+    assert (task.done, task.failed, task.invalid, task.infeasible) == (400, 7, 0, 0)
     with engine.connect() as connection:
         assert connection.scalar(text("SELECT number FROM schema")) == NUMBER
     engine.dispose()
@@ -143,9 +143,9 @@ def test_a_database_without_counts_of_infeasible_rows_goes_on(settings: Settings
         connection.execute(text("UPDATE schema SET number = 3"))
         connection.execute(text("UPDATE jobs SET failed = 7, invalid = 2"))
     desk = JobService(settings)
-    found = desk.of().get(DONE)
+    value = desk.of().get(DONE)
     desk.close()
-    assert (found.done, found.failed, found.invalid, found.infeasible) == (400, 7, 2, 0)
+    assert (value.done, value.failed, value.invalid, value.infeasible) == (400, 7, 2, 0)
     with engine.connect() as connection:
         assert connection.scalar(text("SELECT number FROM schema")) == NUMBER
     engine.dispose()
@@ -156,8 +156,8 @@ def test_a_file_is_named_while_others_read_and_tidy(settings: Settings, monkeypa
     # not opened, so that only what is called here runs
     desk = JobService(settings)
     jobs, parts = desk.of(), desk._parts
-    done = jobs.get(DONE)
-    schema = jobs.schema(done)
+    task = jobs.get(DONE)
+    schema = jobs.schema(task)
     house = Housekeeping(parts.store, parts.retention, parts.files)
     adopt = parts.leases.adopt
 
@@ -175,10 +175,10 @@ def test_a_file_is_named_while_others_read_and_tidy(settings: Settings, monkeypa
             house.tidy()
         return rename(half, whole)
 
-    before = jobs.rows(done, schema)
+    before = jobs.rows(task, schema)
     monkeypatch.setattr(parts.leases, "adopt", late)
     monkeypatch.setattr(Path, "replace", renamed)
-    first = pa.Table.from_batches(jobs.rows(done, schema).batches)
+    first = pa.Table.from_batches(jobs.rows(task, schema).batches)
     # who has asked before the names were given still reads
     assert pa.Table.from_batches(before.batches).equals(first)
     assert jobs.get(DONE).repaired == 0
@@ -192,25 +192,25 @@ def test_a_crash_between_a_name_and_its_record_costs_nothing(settings: Settings)
     write_1(settings)
     desk = JobService(settings)
     jobs, parts = desk.of(), desk._parts
-    done = jobs.get(DONE)
+    task = jobs.get(DONE)
     for piece in parts.store.pieces(DONE):
         parts.files.renamed_file(DONE, piece)
     Housekeeping(parts.store, parts.retention, parts.files).tidy()
-    assert pa.Table.from_batches(jobs.rows(done, jobs.schema(done)).batches).num_rows == 400
+    assert pa.Table.from_batches(jobs.rows(task, jobs.schema(task)).batches).num_rows == 400
     assert jobs.get(DONE).repaired == 0
     assert len(parts.files.names(DONE)) == 2
     desk.close()
 
 
 @pytest.mark.parametrize(
-    ("change", "said"),
+    ("change", "words"),
     [
         (f"UPDATE schema SET number = {NUMBER + 1}", f"has schema {NUMBER + 1}; this service knows {NUMBER}"),
         ("ALTER TABLE jobs DROP COLUMN repaired", "the table jobs of the job database lacks repaired"),
         ("DELETE FROM schema", "has schema None"),
     ],
 )
-def test_another_schema_refuses_to_start(settings: Settings, change: str, said: str) -> None:
+def test_another_schema_refuses_to_start(settings: Settings, change: str, words: str) -> None:
     desk = JobService(settings)
     desk.of().page(1, None)
     desk.close()
@@ -218,7 +218,7 @@ def test_another_schema_refuses_to_start(settings: Settings, change: str, said: 
     with engine.begin() as connection:
         connection.execute(text(change))
     engine.dispose()
-    with pytest.raises(ValueError, match=said):
+    with pytest.raises(ValueError, match=words):
         JobService(settings)
 
 
@@ -247,6 +247,8 @@ def test_tables_of_somebody_else(tmp_path: Path) -> None:
     with pytest.raises(WrongSchema, match=r"no known schema: .*salary"), database.read():
         pass
     database.close()
-    done = CliRunner().invoke(app, ["serve"], env={"COUNTERWEIGHT_DATA_DIR": str(tmp_path), "COUNTERWEIGHT_PORT": "0"})
-    assert done.exit_code == 2
-    assert "no known schema" in done.stderr
+    process = CliRunner().invoke(
+        app, ["serve"], env={"COUNTERWEIGHT_DATA_DIR": str(tmp_path), "COUNTERWEIGHT_PORT": "0"}
+    )
+    assert process.exit_code == 2
+    assert "no known schema" in process.stderr

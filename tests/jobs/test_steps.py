@@ -128,19 +128,19 @@ def test_leases_are_renewed_when_a_third_of_them_is_over(house: House, renewed: 
 def test_a_window_is_filled_in_sixteenths_and_no_further(
     house: House, monkeypatch: pytest.MonkeyPatch, window: int, at_a_time: int
 ) -> None:
-    asked: list[int] = []
+    values: list[int] = []
     claim = house.leases.claim_chunks
 
-    def told(owner: str, lease_s: float, most: int, *more: Any, **named: Any) -> list[Chunk]:
-        asked.append(most)
+    def claim_and_note(owner: str, lease_s: float, most: int, *more: Any, **named: Any) -> list[Chunk]:
+        values.append(most)
         return claim(owner, lease_s, most, *more, **named)
 
     house.submit(total=100, chunk_rows=1)
     step = Steps(house, window)
-    monkeypatch.setattr(house.leases, "claim_chunks", told)
+    monkeypatch.setattr(house.leases, "claim_chunks", claim_and_note)
     assert step() == [(n, n + 1) for n in range(window)]
     # the first looks for what went wrong before
-    assert asked == [1, *[at_a_time] * (window // at_a_time)]
+    assert values == [1, *[at_a_time] * (window // at_a_time)]
     assert step() == []
 
 
@@ -168,8 +168,8 @@ def test_chunks_of_a_pool_that_broke_are_tried_alone_until_the_one_at_fault_is_k
         assert step() == [rows]
     step.running.compute()
     step()
-    found = house.store.get(job)
-    assert (found.state, found.done, found.failed) == ("done", 4, 0)
+    record = house.store.get(job)
+    assert (record.state, record.done, record.failed) == ("done", 4, 0)
 
 
 def test_an_error_of_a_row_is_recorded_when_it_was_tried_as_often_as_asked(house: House) -> None:
@@ -179,8 +179,8 @@ def test_an_error_of_a_row_is_recorded_when_it_was_tried_as_often_as_asked(house
         assert step() == [(0, 1)]
         step.running.fail(ArithmeticError("so it is"))
     assert step() == []
-    found = house.store.get(job)
-    assert (found.state, found.done, found.failed) == ("done", 1, 1)
+    record = house.store.get(job)
+    assert (record.state, record.done, record.failed) == ("done", 1, 1)
 
 
 def test_a_job_fails_when_it_has_more_faults_than_allowed(house: House) -> None:
@@ -192,8 +192,8 @@ def test_a_job_fails_when_it_has_more_faults_than_allowed(house: House) -> None:
     assert step() == [(0, 4)]
     step.running.fail(ArithmeticError("again"))
     step()
-    found = house.store.get(job)
-    assert found.error == "too many rows cannot be computed, the last because ArithmeticError: again"
+    record = house.store.get(job)
+    assert record.error == "too many rows cannot be computed, the last because ArithmeticError: again"
 
 
 def test_what_was_stopped_though_its_job_goes_on_is_computed(house: House) -> None:
@@ -212,7 +212,7 @@ def test_a_cancelled_job_has_its_chunks_cancelled_and_its_workers_told_once(
     house: House, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     job, stopped = house.submit(total=4, chunk_rows=2), list[str]()
-    other = house.submit(total=2, chunk_rows=2, sleep_s=0.0)
+    actual_future = house.submit(total=2, chunk_rows=2, sleep_s=0.0)
     step = Steps(house, 4)
     assert len(step()) == 3
     monkeypatch.setattr(house.files, "stop", stopped.append)
@@ -223,7 +223,7 @@ def test_a_cancelled_job_has_its_chunks_cancelled_and_its_workers_told_once(
     assert [future.cancelled() for *_, future in step.running.sent].count(True) == 2
     step.running.compute()
     step()
-    assert (house.store.get(other).state, house.store.get(job).done) == ("done", 0)
+    assert (house.store.get(actual_future).state, house.store.get(job).done) == ("done", 0)
     # nor is the pool started again
     assert step.running.ends == 0
 
@@ -328,5 +328,5 @@ def test_a_disk_without_room_for_a_lease_fails_what_waits(house: House, monkeypa
     step.pauses(monkeypatch, 2)
     # none of its chunks was on its way
     assert step.running.sent == []
-    found = house.store.get(job)
-    assert (found.state, found.error) == ("failed", "no room")
+    record = house.store.get(job)
+    assert (record.state, record.error) == ("failed", "no room")

@@ -34,8 +34,8 @@ def test_every_row_is_given_out_once_and_counted_once(any_house: House) -> None:
     for chunk in chunks:
         leases.finish([Computed(chunk, 1, "d", 9)])
         leases.finish([Computed(chunk, 1, "d", 9)])
-    found = store.get(job)
-    assert (found.state, found.done, found.failed, found.total) == ("done", 95, 10, 95)
+    record = store.get(job)
+    assert (record.state, record.done, record.failed, record.total) == ("done", 95, 10, 95)
     assert spans(store, job) == [(chunk.start, chunk.stop) for chunk in chunks]
     assert leases.claim("a", LEASE_S) is None
 
@@ -114,15 +114,15 @@ def test_many_chunks_of_one_job_in_one_transaction(any_house: House) -> None:
     assert leases.claim_chunks("a", LEASE_S, 4) == []
     before = store.get(job).version
     assert leases.finish([Computed(chunk, 1, "d", 9, 2, 1) for chunk in some]) == [True] * 4
-    found = store.get(job)
-    assert (found.done, found.failed, found.invalid, found.infeasible, found.version) == (40, 4, 8, 4, before + 1)
+    record = store.get(job)
+    assert (record.done, record.failed, record.invalid, record.infeasible, record.version) == (40, 4, 8, 4, before + 1)
     assert leases.finish([Computed(chunk, 1, "d", 9) for chunk in (some[1], *rest, some[3])]) == [
         False,
         *[True] * 6,
         False,
     ]
-    found = store.get(job)
-    assert (found.state, found.done, found.failed) == ("done", 95, 10)
+    state = store.get(job)
+    assert (state.state, state.done, state.failed) == ("done", 95, 10)
     assert leases.finish([]) == []
 
 
@@ -146,8 +146,8 @@ def test_the_same_key(any_house: House) -> None:
     with pytest.raises(KeyReused):
         submit('{"a": 2}', "x")
     # of another owner it is another key, and no key is never the same
-    others = [submit('{"a": 2}', "x", "somebody"), submit('{"a": 1}', None), submit('{"a": 1}', None)]
-    assert all(new for _, new in others)
+    futures = [submit('{"a": 2}', "x", "somebody"), submit('{"a": 1}', None), submit('{"a": 1}', None)]
+    assert all(new for _, new in futures)
     with ThreadPoolExecutor(4) as threads:
         together = list(threads.map(lambda _: submit('{"c": 1}', "y"), range(8)))
     assert len({job for job, _ in together}) == 1
@@ -174,8 +174,8 @@ def test_failure_and_its_reason(any_house: House) -> None:
     version = store.get(job).version
     store.fail(job, "the disk is full")
     store.fail(job, "later")
-    found = store.get(job)
-    assert (found.state, found.error, found.version) == ("failed", "the disk is full", version + 1)
+    record = store.get(job)
+    assert (record.state, record.error, record.version) == ("failed", "the disk is full", version + 1)
 
 
 def test_halves_of_a_chunk(any_house: House) -> None:
@@ -196,7 +196,7 @@ def test_results_expire(any_house: House) -> None:
     store = Store(any_house.database, Limits(keep_s=100))
     retention = Retention(any_house.database, clock=lambda: now)
     retention.mark_expired()
-    kept, gone = any_house.submit(), any_house.submit()
+    future, gone = any_house.submit(), any_house.submit()
     store.cancel(gone)
     now += 99
     retention.mark_expired()
@@ -207,9 +207,9 @@ def test_results_expire(any_house: House) -> None:
     with pytest.raises(UnknownJob):
         store.get(gone)
     retention.forget(gone)
-    retention.forget(kept)
+    retention.forget(future)
     assert retention.removed() == []
-    assert store.get(kept).active
+    assert store.get(future).active
 
 
 def test_pages_newest_first(any_house: House) -> None:

@@ -22,8 +22,8 @@ from tests.jobs.sweeps import MACHINE, analyses, optimisations
 
 @pytest.fixture(scope="module")
 def client(tmp_path_factory: pytest.TempPathFactory) -> Iterator[TestClient]:
-    with ready(tmp_path_factory.mktemp("data")) as found:
-        yield found
+    with ready(tmp_path_factory.mktemp("data")) as server:
+        yield server
 
 
 @pytest.fixture(scope="module")
@@ -60,8 +60,8 @@ def test_idempotency(client: TestClient) -> None:
     assert first.headers["location"] == again.headers["location"]
     assert (first.status_code, again.status_code) == (202, 202)
     assert ("idempotency-replayed" in first.headers, again.headers["idempotency-replayed"]) == (False, "true")
-    other = post(optimisations(7), "k-1")
-    assert (other.status_code, other.json()["title"]) == (409, "Key reused")
+    response = post(optimisations(7), "k-1")
+    assert (response.status_code, response.json()["title"]) == (409, "Key reused")
     for bad in ("", "x" * 256, "a b"):
         assert post(optimisations(), bad).status_code == 422
 
@@ -77,20 +77,20 @@ def test_cancel_then_remove(client: TestClient) -> None:
     assert (cancelled.status_code, cancelled.json()["state"]) == (200, "cancelled")
     if running.headers["sweep-state"] == "running":
         assert running.headers["sweep-complete"] == "false"
-    done = cancelled.json()["done"]
+    value = cancelled.json()["done"]
     rows = pa.ipc.open_stream(client.get(f"{path}/results?columns=index&format=arrow").content).read_all()
     index = rows["index"].to_pylist()
-    assert (len(index), index) == (done, sorted(set(index)))
-    assert 0 < done < 9_000_000
-    assert client.get(path).json()["done"] == done
+    assert (len(index), index) == (value, sorted(set(index)))
+    assert 0 < value < 9_000_000
+    assert client.get(path).json()["done"] == value
     assert client.delete(path).status_code == 204
     for answer in (client.get(path), client.delete(path), client.get(f"{path}/results"), client.get(f"{path}/events")):
         assert (answer.status_code, answer.json()["title"]) == (404, "Unknown sweep")
 
 
 def test_a_cancelled_sweep_that_selects_says_where_its_rows_are(client: TestClient) -> None:
-    asked = analyses(3000, 1000, pareto=["force_peak_N", "moment_peak_Nm"])
-    path = client.post("/v1/sweeps", json=asked).headers["location"]
+    actual_analyses = analyses(3000, 1000, pareto=["force_peak_N", "moment_peak_Nm"])
+    path = client.post("/v1/sweeps", json=actual_analyses).headers["location"]
     assert client.get(path).json()["message"] is None
     cancelled = client.delete(path).json()
     assert (cancelled["state"], cancelled["eta_s"]) == ("cancelled", None)
@@ -116,30 +116,30 @@ def test_paths_that_lead_nowhere(client: TestClient, id: str) -> None:  # noqa: 
         assert (answer.status_code, answer.headers["content-type"]) == (404, "application/problem+json")
 
 
-def told(text: str) -> list[tuple[int, str, dict[str, Any]]]:
-    found = []
+def events_of(text: str) -> list[tuple[int, str, dict[str, Any]]]:
+    values = []
     for block in text.split("\n\n"):
         fields = dict(line.split(": ", 1) for line in block.splitlines() if not line.startswith(":"))
         if "data" in fields:
-            found.append((int(fields["id"]), fields["event"], json.loads(fields["data"])))
-    return found
+            values.append((int(fields["id"]), fields["event"], json.loads(fields["data"])))
+    return values
 
 
 def test_events(client: TestClient, sweep: str) -> None:
     path = client.post("/v1/sweeps", json=analyses(200, 100)).headers["location"]
     with client.stream("GET", f"{path}/events") as stream:
         assert stream.headers["content-type"].startswith("text/event-stream")
-        events = told("".join(stream.iter_text()))
-    ids = [one[0] for one in events]
+        events = events_of("".join(stream.iter_text()))
+    ids = [event[0] for event in events]
     assert ids == sorted(set(ids))
-    assert [one[1] for one in events] == ["progress"] * (len(events) - 1) + ["end"]
+    assert [event[1] for event in events] == ["progress"] * (len(events) - 1) + ["end"]
     assert (events[-1][2]["state"], events[-1][2]["done"], events[-1][2]["eta_s"]) == ("done", 20_000, None)
     # who comes late gets the last state, who has seen it is told not to come back
     late = client.get(f"{path}/events")
-    assert told(late.text) == [events[-1]]
+    assert events_of(late.text) == [events[-1]]
     assert client.get(f"{path}/events", headers={"Last-Event-ID": str(ids[-1])}).status_code == 204
     for odd in ("0", "-1", "x", "9" * 50, "²"):
-        assert told(client.get(f"{path}/events", headers={"Last-Event-ID": odd.encode()}).text) == [events[-1]]
+        assert events_of(client.get(f"{path}/events", headers={"Last-Event-ID": odd.encode()}).text) == [events[-1]]
 
 
 def test_head_of_streams(client: TestClient, sweep: str) -> None:
@@ -156,9 +156,9 @@ def test_the_list(client: TestClient, sweep: str) -> None:
         page = client.get(following).json()
         listed += page["sweeps"]
         following = page["next"]
-    created = [one["created_at"] for one in listed]
+    created = [entry["created_at"] for entry in listed]
     assert created == sorted(created, reverse=True)
-    assert sweep in [one["links"]["self"] for one in listed]
+    assert sweep in [entry["links"]["self"] for entry in listed]
     assert client.get("/v1/sweeps?before=x").status_code == 404
     assert client.get("/v1/sweeps?limit=0").status_code == 422
 
@@ -199,25 +199,27 @@ def test_no_route_waits_for_the_threads_that_all_libraries_share(
     # what fills them, in a library or by accident, must not reach those who ask for health
     own, shared = anyio.to_thread.run_sync, list[object]()
 
-    async def watched(work: Any, *given: Any, limiter: Any = None, **more: Any) -> Any:
+    async def watched(work: Any, *arguments: Any, limiter: Any = None, **more: Any) -> Any:
         if limiter is None:
             shared.append(work)
-        return await own(work, *given, limiter=limiter, **more)
+        return await own(work, *arguments, limiter=limiter, **more)
 
-    done = client.post("/v1/optimize", json=optimisations()["base"], headers={"Prefer": "respond-async"})
-    ended(client, done.headers["location"])
+    response = client.post("/v1/optimize", json=optimisations()["base"], headers={"Prefer": "respond-async"})
+    ended(client, response.headers["location"])
     monkeypatch.setattr(anyio.to_thread, "run_sync", watched)
     document = client.get("/openapi.json").json()["paths"]
-    asked = {
+    names = {
         (method, path.replace("{id}", sweep.rpartition("/")[2]).replace("{name}", "2d12"))
         for path, operations in document.items()
         for method in operations
         if method != "delete"
     }
-    assert len(asked) > 15
+    assert len(names) > 15
     pages = ("/", "/docs", "/docs/assets/swagger-ui.css", "/docs/assets/nothing", "/portal/x/main.js", "/nowhere")
-    asked |= {("get", path) for path in (*pages, f"{done.headers['location']}/results", f"{sweep}/results?select=all")}
-    for method, path in sorted(asked):
+    names |= {
+        ("get", path) for path in (*pages, f"{response.headers['location']}/results", f"{sweep}/results?select=all")
+    }
+    for method, path in sorted(names):
         body = (
             {"json": optimisations() if path == "/v1/sweeps" else optimisations()["base"]} if method == "post" else {}
         )

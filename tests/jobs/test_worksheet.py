@@ -23,13 +23,13 @@ def read(content: bytes) -> dict[str, list[tuple[Any, ...]]]:
 
 def test_rows_come_back_and_nothing_is_a_formula() -> None:
     content = b"".join(worksheet(SCHEMA, table(ROWS).to_batches()))
-    found = read(content)
+    data = read(content)
     # what ends a line comes back as the library has it
     expected = [tuple("\n=1" if value == "\r=1" else value for value in row.values()) for row in ROWS]
-    got = [tuple("\n=1" if value in ("\r=1", "_x000D_=1") else value for value in row) for row in found["rows"][1:]]
-    assert found["rows"][0] == tuple(SCHEMA.names)
+    got = [tuple("\n=1" if value in ("\r=1", "_x000D_=1") else value for value in row) for row in data["rows"][1:]]
+    assert data["rows"][0] == tuple(SCHEMA.names)
     assert got == expected
-    assert found["columns"][2] == ("force_peak_N", "N", "")
+    assert data["columns"][2] == ("force_peak_N", "N", "")
     types = {cell.data_type for sheet in load_workbook(io.BytesIO(content)).worksheets for row in sheet for cell in row}
     assert types <= {"n", "s", "inlineStr"}
 
@@ -47,22 +47,22 @@ def test_what_fits(rows: int, columns: int) -> None:
 
 
 @pytest.mark.parametrize(
-    ("rows", "columns", "said"),
+    ("rows", "columns", "text"),
     [
         (MOST_ROWS + 1, 1, "1048575 rows, and there are 1048576"),
         (1, 16385, "columns"),
         (MOST_CELLS // 30 + 1, 30, "cells"),
     ],
 )
-def test_what_does_not_fit(rows: int, columns: int, said: str) -> None:
-    with pytest.raises(TooLargeForWorksheet, match=said):
+def test_what_does_not_fit(rows: int, columns: int, text: str) -> None:
+    with pytest.raises(TooLargeForWorksheet, match=text):
         require_fits(rows, columns)
 
 
 def test_the_command_refuses_before_anything_is_computed(tmp_path: Path) -> None:
     body = analyses(2000, 1000)
     out = tmp_path / "rows.xlsx"
-    done = CliRunner().invoke(app, ["sweep", written(tmp_path, body), "-o", str(out)])
-    assert done.exit_code == 2
-    assert "a worksheet holds 1048575 rows, and there are 2000000" in done.output.replace("\n", " ")
+    process = CliRunner().invoke(app, ["sweep", written(tmp_path, body), "-o", str(out)])
+    assert process.exit_code == 2
+    assert "a worksheet holds 1048575 rows, and there are 2000000" in process.output.replace("\n", " ")
     assert not out.exists()

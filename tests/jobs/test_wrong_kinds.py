@@ -26,12 +26,12 @@ def folder(path: Path) -> None:
 
 
 def listening(path: Path) -> None:
-    with closing(socket.socket(socket.AF_UNIX)) as made:
+    with closing(socket.socket(socket.AF_UNIX)) as actual_socket:
         # the whole path is longer than the address of a socket may be
         before = os.open(".", os.O_RDONLY)
         os.chdir(path.parent)
         try:
-            made.bind(path.name)
+            actual_socket.bind(path.name)
         finally:
             os.fchdir(before)
             os.close(before)
@@ -63,14 +63,14 @@ def test_what_is_no_file_of_rows_is_computed_again(house: House, kind: str, capl
         KINDS[kind](path)
         with pytest.raises(RowsDamaged, match="rows 10 to 19"):
             read(house, job, jobs)
-        found = house.wait(job)
-        assert (found.state, found.error, found.repaired) == ("done", None, 1)
+        outcome = house.wait(job)
+        assert (outcome.state, outcome.error, outcome.repaired) == ("done", None, 1)
         assert read(house, job, jobs).equals(synthetic.rows(0, 40))
     aside = sorted(path.parent.glob("*.aside-*"))
     moved = [record.getMessage() for record in caplog.records if "set aside" in record.getMessage()]
     if kind == "folder":
         # nobody knows whose it is
-        assert [(one / "letter").read_text() for one in aside] == ["of somebody"]
+        assert [(file / "letter").read_text() for file in aside] == ["of somebody"]
         assert moved == [f"{path} was a folder; it is set aside as {aside[0].name}"]
     else:
         assert (aside, moved) == ([], [])

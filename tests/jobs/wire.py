@@ -88,10 +88,10 @@ class Wire:
             return
         if fault == "slow":
             time.sleep(delay_s)
-        answer = self._asked(head, body)
+        answer = self._exchange(head, body)
         if fault == "twice":
             # either of the two answers comes back
-            again = self._asked(head, body)
+            again = self._exchange(head, body)
             answer = again if share < 0.5 and again else answer
         if fault == "lost answer":
             return
@@ -101,7 +101,7 @@ class Wire:
             last = head_bytes + int(share * (len(answer) - head_bytes))
             client.sendall(answer[:last] if fault == "cut answer" else answer)
 
-    def _asked(self, head: bytes, body: bytes) -> bytes:
+    def _exchange(self, head: bytes, body: bytes) -> bytes:
         """The whole answer of the service; nothing where it ends before."""
         where = self._service()
         if where is None:

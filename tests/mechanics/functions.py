@@ -64,12 +64,12 @@ def _design(seed: int) -> Design:
     def vectors(*shape: int) -> Any:
         return rng.normal(size=(*shape, 2)) @ [1, 1j]
 
-    one = rng.normal(size=4)
+    values = rng.normal(size=4)
     ratio = np.array([-1.0, 1.0, 2.0, -2.0])
     return Design(
         layout=plan,
         chambers=chambers,
-        shafts=BalanceWebs(one, np.abs(one), ratio, one + 1.0, one - 1.0),
+        shafts=BalanceWebs(values, np.abs(values), ratio, values + 1.0, values - 1.0),
         angle=rng.uniform(0.0, 12.0, _T),
         unbalance=vectors(plan.webs.position.size),
         of_rows=rng.uniform(1.0, 2.0, rows),
@@ -98,99 +98,101 @@ def _joined(parts: list[Any]) -> Any:
     if first is None or isinstance(first, str | bool | int):
         return first
     if isinstance(first, tuple):
-        return type(first)(*(_joined(list(each)) for each in zip(*parts, strict=True)))
+        return type(first)(*(_joined(list(entry)) for entry in zip(*parts, strict=True)))
     if is_dataclass(first):
-        return replace(first, **{f.name: _joined([getattr(one, f.name) for one in parts]) for f in fields(first)})
+        return replace(first, **{f.name: _joined([getattr(part, f.name) for part in parts]) for f in fields(first)})
     return np.stack(parts).reshape(*LEADING, *np.shape(first))
 
 
-def arrays_of(found: Any) -> Iterator[Any]:
+def arrays_of(value: Any) -> Iterator[Any]:
     """The arrays of a result, whatever it is made of."""
-    if is_dataclass(found):
-        found = [getattr(found, field.name) for field in fields(found)]
-    if isinstance(found, tuple | list):
-        for each in found:
-            yield from arrays_of(each)
-    elif isinstance(found, np.ndarray | np.generic | float):
-        yield np.asarray(found)
+    if is_dataclass(value):
+        value = [getattr(value, field.name) for field in fields(value)]
+    if isinstance(value, tuple | list):
+        for number in value:
+            yield from arrays_of(number)
+    elif isinstance(value, np.ndarray | np.generic | float):
+        yield np.asarray(value)
 
 
-def _moving(one: Design, exact: bool = True) -> Any:
-    return motion(one.layout, one.angle, exact)
+def _moving(design: Design, exact: bool = True) -> Any:
+    return motion(design.layout, design.angle, exact)
 
 
-def _rod(one: Design) -> Any:
-    found = rod.rod_forces(one.over_turn, _moving(one), one.layout)
-    return [found.rod, found.side, found.tangential, found.radial, found.torque, found.overturning]
+def _rod(design: Design) -> Any:
+    forces = rod.rod_forces(design.over_turn, _moving(design), design.layout)
+    return [forces.rod, forces.side, forces.tangential, forces.radial, forces.torque, forces.overturning]
 
 
-def _gas(one: Design) -> Any:
-    found = gas.gas_forces(one.chambers, _moving(one), one.layout)
-    return found.pressure, found.force, found.total
+def _gas(design: Design) -> Any:
+    forces = gas.gas_forces(design.chambers, _moving(design), design.layout)
+    return forces.pressure, forces.force, forces.total
 
 
-def _wrench(one: Design) -> inertia.Wrench:
-    return inertia.rotating(one.layout).plus(inertia.reciprocating(one.layout, 1)).times(one.number)
+def _wrench(design: Design) -> inertia.Wrench:
+    return inertia.rotating(design.layout).plus(inertia.reciprocating(design.layout, 1)).times(design.number)
 
 
-def _shares(one: Design, own: bool) -> Any:
-    throws = one.layout.reciprocating.position[..., ::2]
-    webs = one.layout.webs.position
+def _shares(design: Design, own: bool) -> Any:
+    throws = design.layout.reciprocating.position[..., ::2]
+    webs = design.layout.webs.position
     named = np.where(webs > 0.0, np.nan, 1.0) if own else None
     return balance_rate.web_shares(throws, webs, named)
 
 
-def _rates(one: Design) -> Any:
-    rotating = one.loads[..., :2, 0]
-    shares = _shares(one, False)
-    return balance_rate.balance_rates(rotating, shares, one.unbalance), balance_rate.customary(rotating, shares)
+def _rates(design: Design) -> Any:
+    rotating = design.loads[..., :2, 0]
+    shares = _shares(design, False)
+    return balance_rate.balance_rates(rotating, shares, design.unbalance), balance_rate.customary(rotating, shares)
 
 
-def _bending(one: Design, influence: Callable[[Any, Any], Any]) -> Any:
-    carried = influence(one.bearings, one.planes) @ one.loads
-    return carried, bearings.bending_moment(one.bearings, carried, one.planes, one.loads, one.planes + 0.1)
+def _bending(design: Design, influence: Callable[[Any, Any], Any]) -> Any:
+    carried = influence(design.bearings, design.planes) @ design.loads
+    return carried, bearings.bending_moment(design.bearings, carried, design.planes, design.loads, design.planes + 0.1)
 
 
-def _framed(one: Design) -> Any:
-    shares = frame.Shares(one.number, 1.0 - one.number)
-    force, moment = inertia.first_order_responses(one.layout, _wrench(one))
+def _framed(design: Design) -> Any:
+    shares = frame.Shares(design.number, 1.0 - design.number)
+    force, moment = inertia.first_order_responses(design.layout, _wrench(design))
     backwards = (
         replace(force, counter_influence=2.0 * force.influence),
         replace(moment, counter_influence=1j * moment.influence),
     )
     return [
-        frame.phasors(shares, _wrench(one)),
-        frame.phasors(frame.FORCE, _wrench(one)),
-        frame.phasors(frame.MOMENT, _wrench(one)),
-        frame.first_order("a", "N", shares, force, moment).to(one.unbalance),
-        frame.first_order("a", "N", shares, *backwards).to(one.unbalance),
+        frame.phasors(shares, _wrench(design)),
+        frame.phasors(frame.FORCE, _wrench(design)),
+        frame.phasors(frame.MOMENT, _wrench(design)),
+        frame.first_order("a", "N", shares, force, moment).to(design.unbalance),
+        frame.first_order("a", "N", shares, *backwards).to(design.unbalance),
     ]
 
 
-def _keys(one: Design) -> Any:
-    ring = oldham.Oldham(one.number, 2.0 * one.number, 3.0 * one.number, 4.0 * one.number, 5.0 + one.number)
-    found = oldham.keys(ring, one.over_turn[..., 0, :], one.angle)
-    lost = oldham.pin_losses(np.stack([one.angle, -one.angle], axis=-1), 0.1, one.angle, 3.0)
-    return found, found.loss(one.angle), lost
+def _keys(design: Design) -> Any:
+    ring = oldham.Oldham(
+        design.number, 2.0 * design.number, 3.0 * design.number, 4.0 * design.number, 5.0 + design.number
+    )
+    value = oldham.keys(ring, design.over_turn[..., 0, :], design.angle)
+    lost = oldham.pin_losses(np.stack([design.angle, -design.angle], axis=-1), 0.1, design.angle, 3.0)
+    return value, value.loss(design.angle), lost
 
 
-def _quality(one: Design) -> Any:
-    share = balance_quality.plane_shares(one.number, one.number - 1.0, one.number + 0.7)
-    planes = balance_quality.in_planes(one.axis, 2.0 * one.axis, one.number - 1.0, one.number + 1.0)
-    return share, planes, balance_quality.permissible_unbalance(one.number, one.number + 1.0, one.number + 2.0)
+def _quality(design: Design) -> Any:
+    share = balance_quality.plane_shares(design.number, design.number - 1.0, design.number + 0.7)
+    planes = balance_quality.in_planes(design.axis, 2.0 * design.axis, design.number - 1.0, design.number + 1.0)
+    return share, planes, balance_quality.permissible_unbalance(design.number, design.number + 1.0, design.number + 2.0)
 
 
-def _guided(one: Design) -> Any:
-    rows = one.layout.reciprocating
-    return weight.on_guide(one.over_turn, rows.axis, one.layout.sense, rows.mass, one.axis), weight.along_axis(
-        rows.mass, rows.axis, one.axis
+def _guided(design: Design) -> Any:
+    rows = design.layout.reciprocating
+    return weight.on_guide(design.over_turn, rows.axis, design.layout.sense, rows.mass, design.axis), weight.along_axis(
+        rows.mass, rows.axis, design.axis
     )
 
 
-def _turned(one: Design) -> Any:
-    turn = panels(one.angle, 1.0)
-    halves = panels(one.angle, 2.0, halved=True, turns=2)
-    values = np.cos(3.0 * turn.angle) + turn.angle * one.number[..., None]
+def _turned(design: Design) -> Any:
+    turn = panels(design.angle, 1.0)
+    halves = panels(design.angle, 2.0, halved=True, turns=2)
+    values = np.cos(3.0 * turn.angle) + turn.angle * design.number[..., None]
     # jumps at the breaks, and crosses its mean
     return [
         turn.angle, turn.middle, halves.start, halves.width, mean(turn, values), fluctuation(turn, values),
@@ -198,16 +200,16 @@ def _turned(one: Design) -> Any:
     ]  # fmt: skip
 
 
-def _loaded(one: Design) -> Any:
-    wrench, load = _wrench(one), foundation.foundation_load
-    rounded = foundation.rounding(one.layout, one.unbalance)
-    dead = foundation.outer_dead_centre_deg(400.0 * one.number, 700.0 * one.number, one.layout.sense)
-    return rounded, dead, load(wrench, 3, one.layout.sense, dead, rounded)
+def _loaded(design: Design) -> Any:
+    wrench, load = _wrench(design), foundation.foundation_load
+    rounded = foundation.rounding(design.layout, design.unbalance)
+    dead = foundation.outer_dead_centre_deg(400.0 * design.number, 700.0 * design.number, design.layout.sense)
+    return rounded, dead, load(wrench, 3, design.layout.sense, dead, rounded)
 
 
-def _plate(one: Design, shape: Any) -> Any:
-    plate = shape(0.3 * one.number, one.number, 100.0 + one.number, 0.5 + one.number)
-    angle = one.number * plate.most
+def _plate(design: Design, shape: Any) -> Any:
+    plate = shape(0.3 * design.number, design.number, 100.0 + design.number, 0.5 + design.number)
+    angle = design.number * plate.most
     mass, unbalance = plate.mass(angle), plate.unbalance(angle)
     chord = plate.chord(angle)
     return [
@@ -217,82 +219,87 @@ def _plate(one: Design, shape: Any) -> Any:
     ]  # fmt: skip
 
 
-def _traced(one: Design) -> Any:
+def _traced(design: Design) -> Any:
     angle = np.array([[-1.0, 0.5, 3.0, 2.0 * np.pi + 0.5], [-0.5, 1.5, 4.0, 2.0 * np.pi + 1.5]])
     pressure = np.array([[1.0, 5.0, 2.0, 1.0], [3.0, 2.0, 9.0, 3.0]])
-    table = np.where(one.number > 0.55, 1, 0)
+    table = np.where(design.number > 0.55, 1, 0)
     trace = Trace(1, 1, 1, angle, pressure, table, 2.0 * np.pi * table)
-    rows = one.layout.reciprocating
-    facts = (each[..., 1] for each in (one.of_rows, rows.crank_radius, rows.rod_ratio, rows.rod_margin))
-    return trace.at(one.angle), trace.at(one.angle, one.angle + 0.01), trace.breaks(one.number), trace.work(*facts)
+    rows = design.layout.reciprocating
+    facts = (value[..., 1] for value in (design.of_rows, rows.crank_radius, rows.rod_ratio, rows.rod_margin))
+    return (
+        trace.at(design.angle),
+        trace.at(design.angle, design.angle + 0.01),
+        trace.breaks(design.number),
+        trace.work(*facts),
+    )
 
 
-def _worked(one: Design) -> Any:
-    work = RowWork(one.layout, 10.0 * one.of_rows, one.chambers)
-    return work.of_a_turn, work.beside_mean(one.angle)
+def _worked(design: Design) -> Any:
+    work = RowWork(design.layout, 10.0 * design.of_rows, design.chambers)
+    return work.of_a_turn, work.beside_mean(design.angle)
 
 
-def curves_of(one: Design) -> TurnCurves:
-    cut = break_angles(one.layout, gas.switching_angles(one.chambers, one.layout))
-    return whole_turn(row_data(one.layout, True, 10.0 * one.of_rows, one.chambers), cut).torque
+def curves_of(design: Design) -> TurnCurves:
+    cut = break_angles(design.layout, gas.switching_angles(design.chambers, design.layout))
+    return whole_turn(row_data(design.layout, True, 10.0 * design.of_rows, design.chambers), cut).torque
 
 
-def _whole(one: Design) -> Any:
-    torque, leading = curves_of(one), one.number.shape
-    work = RowWork(one.layout, 10.0 * one.of_rows, one.chambers).fluctuation(torque)
+def _whole(design: Design) -> Any:
+    torque, leading = curves_of(design), design.number.shape
+    work = RowWork(design.layout, 10.0 * design.of_rows, design.chambers).fluctuation(torque)
     at = torque.at(np.array([0.3, 2.9]))
     return [
         work.value, torque.mean.reshape(leading), torque.variance.reshape(leading), at.reshape(*leading, 2),
     ]  # fmt: skip
 
 
-def _bearing_curves(one: Design) -> Any:
-    influence = bearings.continuous_beam_influence(one.bearings, shaft_curves.planes(one.layout))
-    found = shaft_curves.shaft_curves(curves_of(one).whole, one.layout, influence)
-    leading = (*one.number.shape, _B)
-    means = [each.curves.mean.reshape(*one.number.shape, -1) for each in (found, found.first(2))]
-    offsets = [found.offsets(each).reshape(leading) for each in (None, one.unbalance)]
-    bending = shaft_curves.bending_influence(one.layout, one.bearings, influence, one.planes)
+def _bearing_curves(design: Design) -> Any:
+    influence = bearings.continuous_beam_influence(design.bearings, shaft_curves.planes(design.layout))
+    curves = shaft_curves.shaft_curves(curves_of(design).whole, design.layout, influence)
+    leading = (*design.number.shape, _B)
+    means = [curves.curves.mean.reshape(*design.number.shape, -1) for curves in (curves, curves.first(2))]
+    offsets = [curves.offsets(value).reshape(leading) for value in (None, design.unbalance)]
+    bending = shaft_curves.bending_influence(design.layout, design.bearings, influence, design.planes)
     return [*means, *offsets, bending]
 
 
 FUNCTIONS: dict[str, Callable[[Design], Any]] = {
-    "own angle": lambda one: own_angle(one.layout, one.angle),
-    "motion": lambda one: [_moving(one), _moving(one).tangential_factor, _moving(one).radial_factor],
-    "motion of the second order": lambda one: _moving(one, False),
-    "steep angles": lambda one: steep_angles(0.5 * one.of_rows),
-    "friction": lambda one: friction.reciprocating_friction(_moving(one), one.of_rows),
-    "losses": lambda one: friction.share_of_losses(
-        one.of_rows - 1.5, one.number, 0.5 * one.number, one.of_rows, one.number
+    "own angle": lambda model: own_angle(model.layout, model.angle),
+    "motion": lambda model: [_moving(model), _moving(model).tangential_factor, _moving(model).radial_factor],
+    "motion of the second order": lambda model: _moving(model, False),
+    "steep angles": lambda model: steep_angles(0.5 * model.of_rows),
+    "friction": lambda model: friction.reciprocating_friction(_moving(model), model.of_rows),
+    "losses": lambda model: friction.share_of_losses(
+        model.of_rows - 1.5, model.number, 0.5 * model.number, model.of_rows, model.number
     ),
     "gas": _gas,
-    "switching": lambda one: [gas.switching_angles(one.chambers, one.layout, exact) for exact in (True, False)],
-    "switching travels": lambda one: gas.switching_travels(one.chambers, one.layout),
-    "indicated work": lambda one: gas.indicated_work(one.chambers, one.layout),
+    "switching": lambda model: [gas.switching_angles(model.chambers, model.layout, exact) for exact in (True, False)],
+    "switching travels": lambda model: gas.switching_travels(model.chambers, model.layout),
+    "indicated work": lambda model: gas.indicated_work(model.chambers, model.layout),
     "rod": _rod,
-    "shaft loads": lambda one: rod.shaft_loads(one.over_turn, _moving(one), one.layout, one.angle),
-    "turned": lambda one: angles.shaft_vectors(one.layout.sense, one.angle),
-    "angles": lambda one: angles.angle_deg(one.unbalance),
-    "rotating": lambda one: inertia.rotating(one.layout),
-    "orders": lambda one: [inertia.reciprocating(one.layout, order) for order in (1, 2, 4)],
-    "counterweights": lambda one: inertia.counterweights(one.layout, one.unbalance),
-    "internal moment": lambda one: [internal_moment(one.layout), internal_moment(one.layout, one.unbalance)],
+    "shaft loads": lambda model: rod.shaft_loads(model.over_turn, _moving(model), model.layout, model.angle),
+    "turned": lambda model: angles.shaft_vectors(model.layout.sense, model.angle),
+    "angles": lambda model: angles.angle_deg(model.unbalance),
+    "rotating": lambda model: inertia.rotating(model.layout),
+    "orders": lambda model: [inertia.reciprocating(model.layout, order) for order in (1, 2, 4)],
+    "counterweights": lambda model: inertia.counterweights(model.layout, model.unbalance),
+    "internal moment": lambda model: [internal_moment(model.layout), internal_moment(model.layout, model.unbalance)],
     "foundation": _loaded,
-    "shares of webs": lambda one: [_shares(one, False), _shares(one, True)],
+    "shares of webs": lambda model: [_shares(model, False), _shares(model, True)],
     "balance rates": _rates,
     "simple spans": partial(_bending, influence=bearings.simple_spans_influence),
     "continuous beam": partial(_bending, influence=bearings.continuous_beam_influence),
     "frame": _framed,
-    "harmonics": lambda one: [
-        harmonic(order, one.number)
+    "harmonics": lambda model: [
+        harmonic(order, model.number)
         for order in (1, 2, 3, 6)
         for harmonic in (acceleration_harmonic, acceleration_harmonic_order_2)
     ],
     "Oldham ring": _keys,
     "balance quality": _quality,
     "weight": _guided,
-    "balance shafts": lambda one: [
-        balance_shafts.of_balance_shafts(one.layout, one.shafts, one.loads[..., :, 0], order) for order in (1, 2)
+    "balance shafts": lambda model: [
+        balance_shafts.of_balance_shafts(model.layout, model.shafts, model.loads[..., :, 0], order) for order in (1, 2)
     ],
     "panels": _turned,
     "sector": partial(_plate, shape=AnnularSector),

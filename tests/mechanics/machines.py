@@ -56,26 +56,26 @@ _PAIRS: dict[str, tuple[str, ...]] = {
 @cache
 def scenes() -> dict[str, dict[str, Any]]:
     """Machines with what is to be known of how they are looked at, as clients post them."""
-    found = {}
+    bodies = {}
     for name, features in _PAIRS.items():
         body = body_of(name.partition(",")[0], features)
         assert body is not None
-        found[name] = {"machine": body["machine"], "fidelity": body.get("fidelity", {})}
-    rows = found["twin, pressure"]["machine"]["throws"][1]["rows"]
+        bodies[name] = {"machine": body["machine"], "fidelity": body.get("fidelity", {})}
+    rows = bodies["twin, pressure"]["machine"]["throws"][1]["rows"]
     # of four strokes, a trunk piston that is open to the crankcase
     rows[0]["cylinder"] = {"bore_m": 0.1, "ambient_pressure_Pa": 1e5, "pressure": _PRESSURE}
-    webs = found["twin, plates"]["machine"]["webs"]
+    webs = bodies["twin, plates"]["machine"]["webs"]
     webs[1]["envelope"] = {**webs[0]["envelope"], "shape": "sector", "inner_radius_m": 0.04}
     webs[3] = {"name": webs[3]["name"], "position_m": webs[3]["position_m"], "envelope": webs[0]["envelope"]}
-    found["w"] = {"machine": random_driven(7, "w", throws=2)}
-    return found
+    bodies["w"] = {"machine": random_driven(7, "w", throws=2)}
+    return bodies
 
 
 @cache
 def machine(name: str) -> Machine:
     """One of them."""
-    found: Machine = TypeAdapter(Machine).validate_python(scenes()[name]["machine"])
-    return found
+    design: Machine = TypeAdapter(Machine).validate_python(scenes()[name]["machine"])
+    return design
 
 
 def _exact(name: str) -> bool:
@@ -150,64 +150,64 @@ def _batch(name: str) -> list[Any]:
 def _on_the_turn(name: str) -> list[Any]:
     turn, plan, places = _turn(name), _layout(name), shaft.bearing_places(machine(name))
     named = {"force": ("N", frame.FORCE), "moment": ("N m", frame.MOMENT), "c": ("N", frame.Shares(0.4, 1.7))}
-    found = [*frame.shaking(turn, plan, named), roll.roll(turn, plan)]
+    bearing_loads = [*frame.shaking(turn, plan, named), roll.roll(turn, plan)]
     if plan.balance is not None and np.any(plan.balance.ratio == -1.0):
-        found.append(roll.mirrored(found[-1], plan.balance))
+        bearing_loads.append(roll.mirrored(bearing_loads[-1], plan.balance))
     for influence in shaft.INFLUENCES.values():
-        found += shaft_curves.bearing_loads(turn, plan, [str(n) for n in range(places.size)], places, influence)
-        found += shaft_curves.bending_moments(turn, plan, places, influence)
-    return [_of_response(one, name) for one in found]
+        bearing_loads += shaft_curves.bearing_loads(turn, plan, [str(n) for n in range(places.size)], places, influence)
+        bearing_loads += shaft_curves.bending_moments(turn, plan, places, influence)
+    return [_of_response(bearing_load, name) for bearing_load in bearing_loads]
 
 
 def _first_order(name: str) -> list[Any]:
     plan = _layout(name)
     wrench = inertia.rotating(plan).plus(inertia.reciprocating(plan, 1))
-    found = balance_shafts.first_order_responses(plan, wrench)
+    first_order_responses = balance_shafts.first_order_responses(plan, wrench)
     parts = scatter.row_parts(plan)
     signs = [scatter.worst_signs(pair, *weights) for pair in parts for weights in ((1.0, 1.0), (0.3, 1.0))]
-    mixed = frame.first_order("c", "N", frame.Shares(0.4, 1.7), *found)
-    return [wrench, found, mixed, parts, signs, scatter.changed(parts.force, signs[0], 0.1)]
+    mixed = frame.first_order("c", "N", frame.Shares(0.4, 1.7), *first_order_responses)
+    return [wrench, first_order_responses, mixed, parts, signs, scatter.changed(parts.force, signs[0], 0.1)]
 
 
 def _driven(name: str) -> ReciprocatingMachine:
-    one = machine(name)
-    assert isinstance(one, ReciprocatingMachine)
-    return one
+    design = machine(name)
+    assert isinstance(design, ReciprocatingMachine)
+    return design
 
 
 def _gas(name: str) -> list[Any]:
-    one, plan = _driven(name), _layout(name)
-    data, moving = cylinders.chambers(one), motion(plan, _ANGLES, _exact(name))
+    driven, plan = _driven(name), _layout(name)
+    data, moving = cylinders.chambers(driven), motion(plan, _ANGLES, _exact(name))
     forces = gas.gas_forces(data, moving, plan, _traces(name))
-    counts = [cylinders.cycle_turns(one), cylinders.entry_count(one), cylinders.without_gas(one)]
+    counts = [cylinders.cycle_turns(driven), cylinders.entry_count(driven), cylinders.without_gas(driven)]
     ahead = own_angle(plan, np.zeros(1))[..., 0]
-    given = [entries(_traces(name), ahead)] if _traces(name) else []
-    rules = [rule.broken for each in (cylinders.delivery_rules, cylinders.trace_rules) for rule in each(one, plan)]
-    problems = [[problem.path, problem.message] for problem in cylinders.gas_problems(one)]
-    return [data, forces.pressure, forces.total, counts, _traces(name), given, rules, problems]
+    actual_entries = [entries(_traces(name), ahead)] if _traces(name) else []
+    rules = [rule.broken for rules in (cylinders.delivery_rules, cylinders.trace_rules) for rule in rules(driven, plan)]
+    problems = [[problem.path, problem.message] for problem in cylinders.gas_problems(driven)]
+    return [data, forces.pressure, forces.total, counts, _traces(name), actual_entries, rules, problems]
 
 
 def _work(name: str) -> list[Any]:
     plan = _layout(name)
     friction = 100.0 * np.arange(1.0, plan.reciprocating.mass.size + 1.0)
     work = row_work.RowWork(plan, friction, cylinders.chambers(_driven(name)))
-    found = work.fluctuation(_turn(name).torque)
-    return [work.of_a_turn, work.beside_mean(_ANGLES), found.value]
+    fluctuation = work.fluctuation(_turn(name).torque)
+    return [work.of_a_turn, work.beside_mean(_ANGLES), fluctuation.value]
 
 
 def _fixed(name: str) -> list[Any]:
-    one = machine(name)
-    webs = np.arange(1.0, len(one.webs) + 1.0)
-    beside = fixed_weights.beside(one, webs, 10.0 * webs)
+    design = machine(name)
+    webs = np.arange(1.0, len(design.webs) + 1.0)
+    beside = fixed_weights.beside(design, webs, 10.0 * webs)
     return [
-        fixed_weights.fixed_webs(one), fixed_weights.fixed_masses(one), beside,
-        fixed_weights.laden(_layout(name), one).rotating,
+        fixed_weights.fixed_webs(design), fixed_weights.fixed_masses(design), beside,
+        fixed_weights.laden(_layout(name), design).rotating,
     ]  # fmt: skip
 
 
 def _plates(name: str) -> list[Any]:
-    one = machine(name)
-    plates = shapes.plates(one)
+    design = machine(name)
+    plates = shapes.plates(design)
     assert plates is not None
     angle = np.array([0.3, 0.9, 0.5]) * plates.most
     masses, unbalances = plates.mass(angle), plates.unbalance(angle)
@@ -217,18 +217,18 @@ def _plates(name: str) -> list[Any]:
         plates.opened_by_mass(masses, unbalances / masses), plates.opened_for(10.0 * masses),
     ]  # fmt: skip
     every = np.array([0.4, 0.3, 9.0, 0.2])
-    fits = (shapes.fitted(one, angle), shapes.closed(one), shapes.fitted_masses(one, every))
-    return [plates.webs, plates.kinds, plates.outer, plates.most, figures, opened, [_radii(each) for each in fits]]
+    fits = (shapes.fitted(design, angle), shapes.closed(design), shapes.fitted_masses(design, every))
+    return [plates.webs, plates.kinds, plates.outer, plates.most, figures, opened, [_radii(engine) for engine in fits]]
 
 
-def _radii(one: Machine) -> list[Any]:
-    return [web.radius_m for web in one.webs]
+def _radii(design: Machine) -> list[Any]:
+    return [web.radius_m for web in design.webs]
 
 
 def _cranks(name: str) -> list[Any]:
-    one = machine(name)
-    shares = [crank_of_web.shares(one)] if isinstance(one, ReciprocatingMachine) else []
-    return [shares, crank_of_web.own_throws(one), crank_of_web.crank_angles(one)]
+    design = machine(name)
+    shares = [crank_of_web.shares(design)] if isinstance(design, ReciprocatingMachine) else []
+    return [shares, crank_of_web.own_throws(design), crank_of_web.crank_angles(design)]
 
 
 _OUTPUTS = {
@@ -247,10 +247,10 @@ def _answer(name: str) -> Any:
     if cylinders_of(name):
         outputs.append("gas")
     webs = [web["name"] for web in scene["machine"]["webs"] if "fixed" not in web]
-    given = [{"web": web, "mass_kg": 0.5 + n, "angle_deg": 40.0 * n} for n, web in enumerate(webs)]
-    request = AnalyzeRequest.model_validate({**body, "outputs": outputs, "counterweights": given})
-    found = analyze(request).model_dump(exclude={"timing", "version", "effects"})
-    return {output: _listed(value) for output, value in found.items() if value is not None}
+    counterweights = [{"web": web, "mass_kg": 0.5 + n, "angle_deg": 40.0 * n} for n, web in enumerate(webs)]
+    request = AnalyzeRequest.model_validate({**body, "outputs": outputs, "counterweights": counterweights})
+    fields = analyze(request).model_dump(exclude={"timing", "version", "effects"})
+    return {output: _listed(value) for output, value in fields.items() if value is not None}
 
 
 def _listed(value: Any) -> list[Any]:
@@ -258,12 +258,12 @@ def _listed(value: Any) -> list[Any]:
     numbers: list[float] = []
     rest: list[Any] = []
 
-    def walk(one: Any) -> None:
-        for each in one.values() if isinstance(one, dict) else one:
-            if isinstance(each, dict | list | tuple):
-                walk(each)
+    def walk(subject: Any) -> None:
+        for single_subject in subject.values() if isinstance(subject, dict) else subject:
+            if isinstance(single_subject, dict | list | tuple):
+                walk(single_subject)
             else:
-                (numbers if isinstance(each, float) else rest).append(each)
+                (numbers if isinstance(single_subject, float) else rest).append(single_subject)
 
     walk([value])
     return [np.array(numbers), sha256(repr(rest).encode()).hexdigest()[:12]]
@@ -271,8 +271,8 @@ def _listed(value: Any) -> list[Any]:
 
 def cylinders_of(name: str) -> bool:
     """Whether every row of a machine has gas."""
-    one = machine(name)
-    return isinstance(one, ReciprocatingMachine) and not cylinders.without_gas(one)
+    design = machine(name)
+    return isinstance(design, ReciprocatingMachine) and not cylinders.without_gas(design)
 
 
 _TURNING = ("twin", "twin, pressure", "vee", "vee, order 2", "w")

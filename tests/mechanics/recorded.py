@@ -12,13 +12,13 @@ from tests.prints import Record
 
 def cases() -> dict[str, Callable[[], Any]]:
     """What is written down, by name."""
-    found: dict[str, Callable[[], Any]] = {name: partial(_of_designs, name) for name in FUNCTIONS}
-    found |= {
+    functions: dict[str, Callable[[], Any]] = {name: partial(_of_designs, name) for name in FUNCTIONS}
+    functions |= {
         f"{what} of {name}": partial(function, name)
         for what, (names, function) in OF_MACHINES.items()
         for name in names
     }
-    return found
+    return functions
 
 
 def _of_designs(name: str) -> Any:

@@ -59,9 +59,9 @@ def test_opposite_and_perpendicular_stay_so(angle: float) -> None:
 
 @given(st.floats(0.0, 359.999))
 def test_angle_of_a_direction_analytic(angle: float) -> None:
-    found = float(angle_deg(direction(np.asarray(angle))))
-    assert 0.0 <= found < 360.0
-    assert abs((found - angle + 180.0) % 360.0 - 180.0) < 1e-12
+    deg = float(angle_deg(direction(np.asarray(angle))))
+    assert 0.0 <= deg < 360.0
+    assert abs((deg - angle + 180.0) % 360.0 - 180.0) < 1e-12
 
 
 def test_angle_of_special_vectors() -> None:

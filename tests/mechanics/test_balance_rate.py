@@ -56,6 +56,6 @@ def test_machines_that_differ_in_a_place_have_webs_of_their_own() -> None:
     """Analytic: what is kept of one machine is not that of another."""
     throws = inline([0, 180], [0.3, -0.3])
     for place, own, shares in ((0.25, 0, [1, 0]), (-0.25, 1, [0, 1]), (0.0, None, [0.5, 0.5])):
-        one = machine(*throws, webs=[web("a", place)])
-        assert crank_of_web.own_throws(one) == (own,)
-        assert crank_of_web.shares(one)[:, 0].tolist() == shares
+        design = machine(*throws, webs=[web("a", place)])
+        assert crank_of_web.own_throws(design) == (own,)
+        assert crank_of_web.shares(design)[:, 0].tolist() == shares

@@ -16,10 +16,10 @@ def test_shafts_add_to_the_order_and_the_sense_in_which_they_turn() -> None:
     place = np.array([0.1, 0.4, 0.2, 0.7]) - plan.reference_plane
     unbalance = np.array([1.0 + 2.0j, 3.0 - 1.0j, 0.5j, 2.0])
     for order, (ahead, back) in ((1, (0, 1)), (2, (2, 3))):
-        found = of_balance_shafts(plan, plan.balance, unbalance, order)
+        wrench = of_balance_shafts(plan, plan.balance, unbalance, order)
         # forces go by the square of the speed
         size = order**2 * unbalance
-        assert found.force.co == pytest.approx(size[ahead])
-        assert found.force.counter == pytest.approx(size[back])
-        assert found.moment.co == pytest.approx(place[ahead] * size[ahead])
-        assert found.moment.counter == pytest.approx(place[back] * size[back])
+        assert wrench.force.co == pytest.approx(size[ahead])
+        assert wrench.force.counter == pytest.approx(size[back])
+        assert wrench.moment.co == pytest.approx(place[ahead] * size[ahead])
+        assert wrench.moment.counter == pytest.approx(place[back] * size[back])

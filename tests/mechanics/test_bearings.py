@@ -51,9 +51,9 @@ def load_scale(shaft: Shaft, reaction: Complex) -> Any:
     return np.sum(np.abs(shaft.load), axis=0) + np.sum(np.abs(reaction), axis=0)
 
 
-def assert_close(found: Complex, expected: Complex, scale: Any, tolerance: float = 1e-12) -> None:
-    assert found.shape == expected.shape
-    assert np.all(np.abs(found - expected) <= tolerance * scale)
+def assert_close(values: Complex, expected: Complex, scale: Any, tolerance: float = 1e-12) -> None:
+    assert values.shape == expected.shape
+    assert np.all(np.abs(values - expected) <= tolerance * scale)
 
 
 def moment_at(model: Model, shaft: Shaft, station: Any) -> Complex:
@@ -71,8 +71,8 @@ def moment_scale(model: Model, shaft: Shaft) -> Any:
 )
 def test_two_bearings_analytic(influence: Influence, plane: float, expected: Numbers) -> None:
     """The lever rule; with two bearings the shaft is statically determinate, so the models agree."""
-    found = influence(np.array([0.0, 1.0]), np.array([plane]))[:, 0]
-    np.testing.assert_allclose(found, expected, rtol=0, atol=1e-15)
+    actual_influence = influence(np.array([0.0, 1.0]), np.array([plane]))[:, 0]
+    np.testing.assert_allclose(actual_influence, expected, rtol=0, atol=1e-15)
 
 
 @INFLUENCES
@@ -84,8 +84,8 @@ def test_a_load_at_a_bearing_is_carried_there_exactly(influence: Influence, coun
 
 
 def test_hinges_keep_a_load_in_its_span_analytic() -> None:
-    found = simple_spans_influence(np.array([0.0, 1.0, 3.0, 4.0]), np.array([1.5, 5.0, -2.0]))
-    np.testing.assert_allclose(found.T, [[0, 3 / 4, 1 / 4, 0], [0, 0, -1, 2], [3, -2, 0, 0]], rtol=0, atol=1e-15)
+    influence = simple_spans_influence(np.array([0.0, 1.0, 3.0, 4.0]), np.array([1.5, 5.0, -2.0]))
+    np.testing.assert_allclose(influence.T, [[0, 3 / 4, 1 / 4, 0], [0, 0, -1, 2], [3, -2, 0, 0]], rtol=0, atol=1e-15)
 
 
 @pytest.mark.parametrize(
@@ -130,12 +130,12 @@ def test_uniform_load_on_equal_spans_published(whole: int, reactions: Numbers, m
 @MODELS
 @given(shaft=shafts())
 def test_bearings_balance_force_and_couple(model: Model, shaft: Shaft) -> None:
-    found = model(*shaft)
-    scale = load_scale(shaft, found)
-    assert_close(found.sum(axis=0), shaft.load.sum(axis=0), scale)
+    scheme = model(*shaft)
+    scale = load_scale(shaft, scheme)
+    assert_close(scheme.sum(axis=0), shaft.load.sum(axis=0), scale)
     centre = shaft.bearing.mean()
     arm = np.ptp(shaft.bearing) + 2.0
-    assert_close((shaft.bearing - centre) @ found, (shaft.position - centre) @ shaft.load, scale * arm)
+    assert_close((shaft.bearing - centre) @ scheme, (shaft.position - centre) @ shaft.load, scale * arm)
 
 
 @given(shafts((2, 2)))
@@ -150,24 +150,24 @@ def test_superposed_mirrored_scaled_turned_and_shuffled(
 ) -> None:
     """Bearing loads add, turn and grow with the loads, know no unit of length, no left and right, no order."""
     bearing, position, load = shaft
-    found, turn = model(*shaft), factor * np.exp(1j * angle)
+    scheme, turn = model(*shaft), factor * np.exp(1j * angle)
     # places are rounded anew: one part in 1e16 of 10 m, on a span of 0.05 m
-    scale = LEVER**2 * load_scale(shaft, found)
-    assert_close(model(bearing, position[1:], load[1:]) + model(bearing, position[:1], load[:1]), found, scale)
-    assert_close(model(-bearing, -position, load), found, scale)
-    assert_close(model(factor * bearing, factor * position, load), found, scale)
-    assert_close(model(bearing, position, turn * load) / turn, found, scale)
-    assert_close(model(bearing, position, load.real) + 1j * model(bearing, position, load.imag), found, scale)
+    scale = LEVER**2 * load_scale(shaft, scheme)
+    assert_close(model(bearing, position[1:], load[1:]) + model(bearing, position[:1], load[:1]), scheme, scale)
+    assert_close(model(-bearing, -position, load), scheme, scale)
+    assert_close(model(factor * bearing, factor * position, load), scheme, scale)
+    assert_close(model(bearing, position, turn * load) / turn, scheme, scale)
+    assert_close(model(bearing, position, load.real) + 1j * model(bearing, position, load.imag), scheme, scale)
     order, loads = np.argsort(bearing), data.draw(st.permutations(range(position.size)))
-    assert_close(model(bearing[order], position[loads], load[loads]), found[order], scale)
+    assert_close(model(bearing[order], position[loads], load[loads]), scheme[order], scale)
 
 
 @MODELS
 @given(shaft=shafts())
 def test_no_origin_is_far(model: Model, shaft: Shaft) -> None:
     """A shift by 1e6 m rounds the places themselves to 1e-10 m; a shift that rounds nothing costs not a bit."""
-    found, far = model(*shaft), model(shaft.bearing + 1e6, shaft.position + 1e6, shaft.load)
-    assert_close(far, found, load_scale(shaft, found), 1e-8)
+    scheme, far = model(*shaft), model(shaft.bearing + 1e6, shaft.position + 1e6, shaft.load)
+    assert_close(far, scheme, load_scale(shaft, scheme), 1e-8)
     bearing, position = np.unique(np.round(shaft.bearing * 64) / 64), np.round(shaft.position * 64) / 64
     shifted = model(bearing + 2.0**20, position + 2.0**20, shaft.load)
     assert np.array_equal(shifted, model(bearing, position, shaft.load))
@@ -197,8 +197,8 @@ UNEQUAL = Shaft(np.array([0.0, 1e-4, 1.0, 11.0, 11.001, 50.0]), np.array([-1.0, 
 @example(UNEQUAL)
 def test_continuous_beam_independent_deflection(shaft: Shaft) -> None:
     expected = macaulay(shaft)
-    found = continuous_beam_influence(shaft.bearing, shaft.position)
-    assert np.all(np.abs(found - expected) <= 1e-12 * (1.0 + np.max(np.abs(expected), axis=0)))
+    influence = continuous_beam_influence(shaft.bearing, shaft.position)
+    assert np.all(np.abs(influence - expected) <= 1e-12 * (1.0 + np.max(np.abs(expected), axis=0)))
 
 
 def test_moment_of_simple_beams_analytic() -> None:
@@ -240,9 +240,9 @@ def test_moment_vanishes_beyond_the_ends_and_at_hinges(model: Model, shaft: Shaf
 def test_moment_is_the_couple_of_the_forces_on_either_side(model: Model, shaft: Shaft, station: float) -> None:
     arm = np.concatenate([shaft.bearing, shaft.position]) - station
     force = np.concatenate([-model(*shaft), shaft.load])
-    found, scale = moment_at(model, shaft, [station])[0], 20.0 * load_scale(shaft, model(*shaft))
-    assert_close(np.minimum(arm, 0.0) @ force, found, scale)
-    assert_close(-np.maximum(arm, 0.0) @ force, found, scale)
+    value, scale = moment_at(model, shaft, [station])[0], 20.0 * load_scale(shaft, model(*shaft))
+    assert_close(np.minimum(arm, 0.0) @ force, value, scale)
+    assert_close(-np.maximum(arm, 0.0) @ force, value, scale)
 
 
 @MODELS
@@ -262,13 +262,13 @@ def test_leading_axes_equal_a_loop(model: Model) -> None:
     bearing = rng.permuted(np.cumsum(rng.uniform(0.2, 1.0, (4, 1, 5)), axis=-1), axis=-1)
     position, stations = rng.uniform(-0.5, 5.0, (3, 6)), rng.uniform(-1.0, 5.0, (4, 3, 8))
     load = rng.normal(size=(4, 3, 6, 7)) + 1j * rng.normal(size=(4, 3, 6, 7))
-    found = model(bearing, position, load)
-    moment = bending_moment(bearing, found, position, load, stations)
-    assert (found.shape, moment.shape) == ((4, 3, 5, 7), (4, 3, 8, 7))
+    scheme = model(bearing, position, load)
+    moment = bending_moment(bearing, scheme, position, load, stations)
+    assert (scheme.shape, moment.shape) == ((4, 3, 5, 7), (4, 3, 8, 7))
     for i, j in np.ndindex(4, 3):
-        one = model(bearing[i, 0], position[j], load[i, j])
-        assert_close(found[i, j], one, 10.0)
-        expected = bending_moment(bearing[i, 0], one, position[j], load[i, j], stations[i, j])
+        actual_model = model(bearing[i, 0], position[j], load[i, j])
+        assert_close(scheme[i, j], actual_model, 10.0)
+        expected = bending_moment(bearing[i, 0], actual_model, position[j], load[i, j], stations[i, j])
         assert_close(moment[i, j], expected, 10.0)
 
 

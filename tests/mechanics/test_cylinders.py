@@ -57,33 +57,35 @@ def without(*names: str, **rest: Any) -> dict[str, Any]:
 
 
 def test_areas() -> None:
-    found = chambers(machine(FULL, without("bore_m", "piston_rod_diameter_m", head_area_m2=0.2, crank_area_m2=0.19)))
+    cylinders = chambers(
+        machine(FULL, without("bore_m", "piston_rod_diameter_m", head_area_m2=0.2, crank_area_m2=0.19))
+    )
     ring = 0.25 * np.pi * (0.25 - 0.01)  # analytic
-    np.testing.assert_allclose(found.area, [[0.0625 * np.pi, ring], [0.2, 0.19]], rtol=1e-15)
-    assert found.closed.all()
+    np.testing.assert_allclose(cylinders.area, [[0.0625 * np.pi, ring], [0.2, 0.19]], rtol=1e-15)
+    assert cylinders.closed.all()
 
 
 def test_rows_stand_throw_by_throw() -> None:
-    made = [without("relative_clearance", relative_clearance=0.01 * (k + 1)) for k in range(4)]
-    np.testing.assert_array_equal(chambers(machine(*made)).clearance[:, 0], [0.01, 0.02, 0.03, 0.04])
+    values = [without("relative_clearance", relative_clearance=0.01 * (k + 1)) for k in range(4)]
+    np.testing.assert_array_equal(chambers(machine(*values)).clearance[:, 0], [0.01, 0.02, 0.03, 0.04])
 
 
 def test_a_side_may_have_data_of_its_own() -> None:
-    one = without(head={"suction_pressure_Pa": 2e5, "expansion_exponent": 1.1}, crank={"relative_clearance": 0.3})
-    found = chambers(machine(one))
-    np.testing.assert_array_equal(found.suction, [[2e5, 1e5]])
-    np.testing.assert_array_equal(found.discharge, [[3e5, 3e5]])
-    np.testing.assert_array_equal(found.clearance, [[0.1, 0.3]])
-    np.testing.assert_array_equal(found.expansion_exponent, [[1.1, 1.2]])
-    np.testing.assert_array_equal(found.compression_exponent, [[1.3, 1.3]])
+    fields = without(head={"suction_pressure_Pa": 2e5, "expansion_exponent": 1.1}, crank={"relative_clearance": 0.3})
+    cylinders = chambers(machine(fields))
+    np.testing.assert_array_equal(cylinders.suction, [[2e5, 1e5]])
+    np.testing.assert_array_equal(cylinders.discharge, [[3e5, 3e5]])
+    np.testing.assert_array_equal(cylinders.clearance, [[0.1, 0.3]])
+    np.testing.assert_array_equal(cylinders.expansion_exponent, [[1.1, 1.2]])
+    np.testing.assert_array_equal(cylinders.compression_exponent, [[1.3, 1.3]])
 
 
 @pytest.mark.parametrize("side", [0, 1])
 def test_single_acting(side: int) -> None:
-    found = chambers(machine(without(acting=("head", "crank")[side], ambient_pressure_Pa=9e4)))
-    assert found.closed[0].tolist() == [side == 0, side == 1]
-    assert found.suction[0, 1 - side] == found.discharge[0, 1 - side] == 9e4
-    assert found.suction[0, side] == 1e5
+    cylinders = chambers(machine(without(acting=("head", "crank")[side], ambient_pressure_Pa=9e4)))
+    assert cylinders.closed[0].tolist() == [side == 0, side == 1]
+    assert cylinders.suction[0, 1 - side] == cylinders.discharge[0, 1 - side] == 9e4
+    assert cylinders.suction[0, side] == 1e5
 
 
 def paths(cylinders: list[dict[str, Any] | None]) -> list[tuple[str | int, ...]]:
@@ -92,10 +94,10 @@ def paths(cylinders: list[dict[str, Any] | None]) -> list[tuple[str | int, ...]]
 
 @pytest.mark.parametrize("field", list(FULL))
 def test_a_missing_field_is_named_in_its_place(field: str) -> None:
-    found = paths([FULL, FULL, without(field), FULL])
+    actual_paths = paths([FULL, FULL, without(field), FULL])
     place = ("throws", 1, "rows", 0, "cylinder")
     expected = {"bore_m": [(*place, "bore_m"), (*place, "crank_area_m2")]}.get(field, [(*place, field)])
-    assert found == expected
+    assert actual_paths == expected
 
 
 def test_nothing_is_missing_where_it_is_not_needed() -> None:
@@ -113,11 +115,11 @@ def test_single_acting_needs_the_ambient() -> None:
 
 
 def test_a_row_without_a_cylinder_carries_no_gas() -> None:
-    one = machine(FULL, None)
-    assert without_gas(one) == (("throws", 0, "rows", 1, "cylinder"),)
+    design = machine(FULL, None)
+    assert without_gas(design) == (("throws", 0, "rows", 1, "cylinder"),)
     assert paths([FULL, None]) == []
-    assert np.all(chambers(one).area[1] == 0.0)
-    assert np.all(chambers(one).area[0] > 0.0)
+    assert np.all(chambers(design).area[1] == 0.0)
+    assert np.all(chambers(design).area[0] > 0.0)
 
 
 def test_all_that_is_missing_is_named_at_once() -> None:
@@ -140,9 +142,9 @@ def test_all_that_is_missing_is_named_at_once() -> None:
     ],
 )
 def test_too_much_clearance_is_named(changes: dict[str, Any], delivers: bool) -> None:
-    one = machine(FULL, {**FULL, **changes})
-    found = [rule for rule in delivery_rules(one, layout(one)) if rule.broken]
-    assert [rule.path for rule in found] == (
+    design = machine(FULL, {**FULL, **changes})
+    rules = [rule for rule in delivery_rules(design, layout(design)) if rule.broken]
+    assert [rule.path for rule in rules] == (
         [] if delivers else [("throws", 0, "rows", 1, "cylinder", "relative_clearance")]
     )
 
@@ -173,16 +175,16 @@ def recorded(turns: int = 1, start: float | None = None, **rest: Any) -> dict[st
 
 
 def test_a_record_goes_from_an_entry_of_the_cycle_before_to_one_of_the_next() -> None:
-    one = machine(FULL, recorded())
-    (found,) = traces(one, layout(one))
-    assert (found.row, found.side, found.turns) == (1, 0, 1)
-    np.testing.assert_allclose(np.rad2deg(found.angle), [[-110.0, 10.0, 100.0, 250.0, 370.0]])
-    np.testing.assert_array_equal(found.pressure, [[2e5, 1e5, 5e5, 2e5, 1e5]])
-    assert found.cycle == pytest.approx(2 * np.pi)
-    assert found.table == 0
+    design = machine(FULL, recorded())
+    (trace,) = traces(design, layout(design))
+    assert (trace.row, trace.side, trace.turns) == (1, 0, 1)
+    np.testing.assert_allclose(np.rad2deg(trace.angle), [[-110.0, 10.0, 100.0, 250.0, 370.0]])
+    np.testing.assert_array_equal(trace.pressure, [[2e5, 1e5, 5e5, 2e5, 1e5]])
+    assert trace.cycle == pytest.approx(2 * np.pi)
+    assert trace.table == 0
     two = machine(recorded(2))
-    (found,) = traces(two, layout(two))
-    np.testing.assert_allclose(np.rad2deg(found.angle), [[-120.0, 10.0, 100.0, 450.0, 600.0, 730.0]])
+    (record,) = traces(two, layout(two))
+    np.testing.assert_allclose(np.rad2deg(record.angle), [[-120.0, 10.0, 100.0, 450.0, 600.0, 730.0]])
     # a trunk piston is open to the crankcase: all of its area
     assert chambers(two).area[0] == pytest.approx([0.0625 * np.pi, 0.0625 * np.pi])
     assert not chambers(two).closed.any()
@@ -198,12 +200,12 @@ def test_a_record_begins_at_a_dead_centre_of_its_row(start: float | None, rotati
         if (first - centre) % 360.0:
             continue
         cylinders = [recorded(2, start) if k == number else None for k in range(2)]
-        one = machine(*cylinders, rotation=rotation)
-        (found,) = traces(one, layout(one))
+        design = machine(*cylinders, rotation=rotation)
+        (trace,) = traces(design, layout(design))
         # of a shaft that has turned to the dead centre the table is at its beginning
         own = np.deg2rad(first - 90.0 * number * (1.0 if rotation == "ccw" else -1.0))
-        assert float(found.lead) == pytest.approx(own, abs=1e-12)
-        pressure, _ = found.at(np.array([own + np.deg2rad(100.0)]))
+        assert float(trace.lead) == pytest.approx(own, abs=1e-12)
+        pressure, _ = trace.at(np.array([own + np.deg2rad(100.0)]))
         assert pressure == pytest.approx([5e5])
 
 
@@ -226,9 +228,9 @@ def test_rows_times_entries_are_limited(most: int, many: bool, monkeypatch: pyte
     alike = both.model_copy(
         update={"throws": (both.throws[0].model_copy(update={"rows": tuple(rows)}), both.throws[1])}
     )
-    for one, entries in ((alike, 3), (both, 6)):
-        (rule,) = trace_rules(one, layout(one))
-        assert bool(rule.broken) == (2 * entries > most if one is both else many)
+    for reciprocating_machine, entries in ((alike, 3), (both, 6)):
+        (rule,) = trace_rules(reciprocating_machine, layout(reciprocating_machine))
+        assert bool(rule.broken) == (2 * entries > most if reciprocating_machine is both else many)
         assert rule.path == ("throws", 0, "rows", 0, "cylinder", "pressure")
         assert f"at most {most}" in rule.message
     assert list(trace_rules(machine(FULL), layout(machine(FULL)))) == []
@@ -257,8 +259,8 @@ def test_rows_times_entries_are_limited(most: int, many: bool, monkeypatch: pyte
     ],
 )
 def test_what_is_missing_is_named_with_the_reason(cylinder: dict[str, Any], words: dict[str, str]) -> None:
-    found = {str(problem.path[-1]): problem.message for problem in gas_problems(machine(cylinder))}
-    assert found == {name: f"gas forces need this field{word}" for name, word in words.items()}
+    messages = {str(problem.path[-1]): problem.message for problem in gas_problems(machine(cylinder))}
+    assert messages == {name: f"gas forces need this field{word}" for name, word in words.items()}
 
 
 @pytest.mark.parametrize("field", ["suction_pressure_Pa", "relative_clearance", "bore_m"])

@@ -34,9 +34,9 @@ def test_sectors_by_quadrature(inner: float, angle: float) -> None:
         (2, float(np.sin(angle)), plate.unbalance(angle)),
         (3, angle, plate.inertia(angle)),
     )
-    for power, half, said in figures:
+    for power, half, values in figures:
         rings = 300.0 * integral(lambda r, power=power, half=half: 2 * half * r**power, inner, 0.25)  # type: ignore[misc]
-        assert rings == pytest.approx(float(said), rel=1e-12)
+        assert rings == pytest.approx(float(values), rel=1e-12)
 
 
 @pytest.mark.parametrize("angle", [0.05, 0.3, 1.0, 1.4, RIGHT])
@@ -120,14 +120,16 @@ def test_a_hub_too_small_to_divide_by_is_none(shape: type[Segment], inner: float
 
 
 @given(plates(), st.floats(0.01, 0.99), st.floats(0.0, 1.0))
-def test_masses_are_convex_with_their_levers_as_tangents(plate: Envelope, share: float, other: float) -> None:
+def test_masses_are_convex_with_their_levers_as_tangents(plate: Envelope, share: float, value: float) -> None:
     # analytic: a convex function is above its tangents
-    there, here = share * plate.most, other * plate.most
+    there, here = share * plate.most, value * plate.most
     gained = float(plate.unbalance(here)) - float(plate.unbalance(there))
     tangent = float(plate.mass(there)) + gained / float(plate.lever(there))
     assert float(plate.mass(here)) >= tangent - 1e-12 * float(plate.mass(plate.most)) - 1e-12 * abs(tangent)
     step = 1e-5 * share
-    added = (float(each(there + step)) - float(each(there - step)) for each in (plate.unbalance, plate.mass))
+    added = (
+        float(function(there + step)) - float(function(there - step)) for function in (plate.unbalance, plate.mass)
+    )
     unbalance, mass = added
     assert unbalance / mass == pytest.approx(float(plate.lever(there)), rel=1e-4)
 
@@ -136,10 +138,10 @@ def test_plates_broadcast() -> None:
     outer = np.array([[0.1], [0.2]])
     for shape in SHAPES:
         many = shape(np.full((2, 1), 0.05), outer, 100.0, np.full((2, 1), RIGHT))
-        one = shape(0.05, 0.2, 100.0, RIGHT)
+        sector = shape(0.05, 0.2, 100.0, RIGHT)
         angle = np.array([0.1, 0.5, 1.5])
         for name in ("mass", "unbalance", "inertia", "lever"):
             assert getattr(many, name)(angle).shape == (2, 3)
-            assert getattr(many, name)(angle)[1] == pytest.approx(getattr(one, name)(angle), rel=1e-14)
+            assert getattr(many, name)(angle)[1] == pytest.approx(getattr(sector, name)(angle), rel=1e-14)
         unbalance = many.unbalance(angle)
         assert many.opened(unbalance) == pytest.approx(np.array([angle, angle]), rel=1e-9)

@@ -46,9 +46,9 @@ def loads(body: dict[str, Any], orders: tuple[int, ...] = (1, 2, 3, 4, 5, 6)) ->
     request = AnalyzeRequest.model_validate(
         {"machine": body, "outputs": ["foundation_loads"], "foundation_orders": orders}
     )
-    found = analyze(request).foundation_loads
-    assert found is not None
-    return {one.order: phasors(one.before.model_dump()) for one in found}
+    foundation_loads = analyze(request).foundation_loads
+    assert foundation_loads is not None
+    return {foundation_load.order: phasors(foundation_load.before.model_dump()) for foundation_load in foundation_loads}
 
 
 def phasors(of_set: dict[str, Any]) -> dict[str, complex]:
@@ -62,12 +62,12 @@ def phasors(of_set: dict[str, Any]) -> dict[str, complex]:
 @pytest.mark.parametrize("crank", [0.0, 50.0])
 def test_orders_of_one_slider_crank(rotation: str, crank: float) -> None:
     """Analytic: m r omega^2 A_k along the axis, in phase with the outer dead centre, and no odd order above 1."""
-    found = loads(machine(throw(0.0, crank), rotation=rotation))
+    document = loads(machine(throw(0.0, crank), rotation=rotation))
     for order in range(1, 7):
         size = FORCE * float(acceleration_harmonic(order, np.asarray(RADIUS / ROD)))
-        assert found[order]["force_x"] == pytest.approx(size, rel=1e-13)
-        assert found[order]["couple_of_x_forces"] == pytest.approx(PLACE * size, rel=1e-13)
-        assert found[order]["force_y"] == found[order]["couple_of_y_forces"] == 0.0
+        assert document[order]["force_x"] == pytest.approx(size, rel=1e-13)
+        assert document[order]["couple_of_x_forces"] == pytest.approx(PLACE * size, rel=1e-13)
+        assert document[order]["force_y"] == document[order]["couple_of_y_forces"] == 0.0
 
 
 @pytest.mark.parametrize(("rotation", "phase"), [("ccw", 90.0), ("cw", 270.0)])
@@ -98,11 +98,13 @@ def test_a_turned_frame_turns_the_loads(angle: float) -> None:
 
 def test_loads_of_two_throws_add_up() -> None:
     """Analytic: superposition, both counted from the dead centre of the first."""
-    one, other = throw(20.0, 0.0), throw(-50.0, 130.0, 0.9, 4.0)
+    first_throw, second_throw = throw(20.0, 0.0), throw(-50.0, 130.0, 0.9, 4.0)
     # a throw whose row weighs nothing keeps the dead centre
-    still = json.loads(json.dumps(one))
+    still = json.loads(json.dumps(first_throw))
     still["rows"][0]["reciprocating_mass_kg"] = 0.0
-    both, first, second = (loads(machine(*some)) for some in ((one, other), (one,), (still, other)))
+    both, first, second = (
+        loads(machine(*some)) for some in ((first_throw, second_throw), (first_throw,), (still, second_throw))
+    )
     for order in (1, 2, 4, 6):
         for name in LOADS:
             assert both[order][name] == pytest.approx(first[order][name] + second[order][name], abs=1e-9)
@@ -110,8 +112,8 @@ def test_loads_of_two_throws_add_up() -> None:
 
 def test_what_cancels_is_nothing() -> None:
     """Analytic: three throws 120 degrees apart leave no force of orders 1, 2 and 4."""
-    found = loads(machine(*(throw(17.0, 17.0 + 120.0 * k, 0.7 * k - 0.7) for k in range(3))))
-    assert [found[order][name] for order in (1, 2, 4) for name in ("force_x", "force_y")] == [0.0] * 6
+    document = loads(machine(*(throw(17.0, 17.0 + 120.0 * k, 0.7 * k - 0.7) for k in range(3))))
+    assert [document[order][name] for order in (1, 2, 4) for name in ("force_x", "force_y")] == [0.0] * 6
 
 
 def request(**rest: Any) -> dict[str, Any]:
@@ -123,16 +125,20 @@ def test_as_built_is_what_an_analysis_finds() -> None:
     """Independent: the same counterweights given to an analysis."""
     web = request()["machine"]["webs"][0]["name"]
     fitted = [{"web": web, "mass_kg": 20.0, "angle_deg": 170.0}]
-    found = optimize(OptimizeRequest.model_validate(request(fitted=fitted)))
-    given = {"machine": request()["machine"], "counterweights": fitted, "outputs": ["foundation_loads"]}
-    alone = analyze(AnalyzeRequest.model_validate(given))
+    answer = optimize(OptimizeRequest.model_validate(request(fitted=fitted)))
+    body = {"machine": request()["machine"], "counterweights": fitted, "outputs": ["foundation_loads"]}
+    alone = analyze(AnalyzeRequest.model_validate(body))
     plain = optimize(OptimizeRequest.model_validate(request()))
-    assert found.foundation_loads is not None
+    assert answer.foundation_loads is not None
     assert alone.foundation_loads is not None
     assert plain.foundation_loads is not None
-    assert [one.as_built for one in found.foundation_loads] == [one.after for one in alone.foundation_loads]
-    assert [one.after for one in found.foundation_loads] == [one.after for one in plain.foundation_loads]
-    assert all(one.as_built is None for one in plain.foundation_loads)
+    assert [foundation_load.as_built for foundation_load in answer.foundation_loads] == [
+        foundation_load.after for foundation_load in alone.foundation_loads
+    ]
+    assert [foundation_load.after for foundation_load in answer.foundation_loads] == [
+        foundation_load.after for foundation_load in plain.foundation_loads
+    ]
+    assert all(foundation_load.as_built is None for foundation_load in plain.foundation_loads)
 
 
 def test_fitted_is_refused_at_its_field() -> None:

@@ -55,8 +55,10 @@ def test_published_losses() -> None:
 
 
 def test_a_perfect_machine_has_none() -> None:
-    one = np.asarray(1.0)
-    force, torque = share_of_losses(np.array([5e3]), one, np.asarray(0.7), np.array([2.0 * RADIUS]), np.asarray(OMEGA))
+    values = np.asarray(1.0)
+    force, torque = share_of_losses(
+        np.array([5e3]), values, np.asarray(0.7), np.array([2.0 * RADIUS]), np.asarray(OMEGA)
+    )
     np.testing.assert_array_equal([*force, torque], 0.0)
 
 

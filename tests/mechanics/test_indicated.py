@@ -33,26 +33,26 @@ def machine(body: dict[str, Any]) -> ReciprocatingMachine:
 
 def pressures(body: dict[str, Any], angle_deg: Real) -> Real:
     """Of all chambers, (rows, 2, T) Pa."""
-    made = machine(body)
-    plan = layout(made)
+    design = machine(body)
+    plan = layout(design)
     moving = motion(plan, np.deg2rad(angle_deg))
-    return gas_forces(chambers(made), moving, plan, traces(made, plan)).pressure
+    return gas_forces(chambers(design), moving, plan, traces(design, plan)).pressure
 
 
-def work(made: ReciprocatingMachine, leading: tuple[int, ...] = ()) -> Real:
+def work(design: ReciprocatingMachine, leading: tuple[int, ...] = ()) -> Real:
     """Work of the only trace of the first row, (...) J."""
-    plan = spread(layout(made), leading)
-    (one,) = traces(made, plan)
-    rows, area = plan.reciprocating, chambers(made, leading).area[..., 0, one.side]
-    return one.work(area, rows.crank_radius[..., 0], rows.rod_ratio[..., 0], rows.rod_margin[..., 0])
+    plan = spread(layout(design), leading)
+    (record,) = traces(design, plan)
+    rows, area = plan.reciprocating, chambers(design, leading).area[..., 0, record.side]
+    return record.work(area, rows.crank_radius[..., 0], rows.rod_ratio[..., 0], rows.rod_margin[..., 0])
 
 
 def turn_of(body: dict[str, Any]) -> WholeTurn:
-    made = machine(body)
-    plan = layout(made)
-    given = traces(made, plan)
-    data = row_data(plan, True, np.full(plan.reciprocating.mass.shape, 200.0), chambers(made), given)
-    return whole_turn(data, break_angles(plan, (), given))
+    design = machine(body)
+    plan = layout(design)
+    actual_traces = traces(design, plan)
+    data = row_data(plan, True, np.full(plan.reciprocating.mass.shape, 200.0), chambers(design), actual_traces)
+    return whole_turn(data, break_angles(plan, (), actual_traces))
 
 
 @pytest.mark.parametrize("rotation", ["ccw", "cw"])
@@ -62,9 +62,9 @@ def test_pressure_is_linear_between_the_entries_of_two_turns(start: float, rotat
     angle = np.linspace(-300.0, 1500.0, 1801)
     # independent: the interpolation of numpy
     expected = np.interp(angle - start, UNEVEN["angle_deg"], UNEVEN["pressure_Pa"], period=720.0)
-    found = pressures(body, angle)
-    np.testing.assert_allclose(found[0, 0], expected, rtol=1e-11)
-    np.testing.assert_array_equal(found[0, 1], 1.1e5)
+    actual_pressures = pressures(body, angle)
+    np.testing.assert_allclose(actual_pressures[0, 0], expected, rtol=1e-11)
+    np.testing.assert_array_equal(actual_pressures[0, 1], 1.1e5)
 
 
 def test_angles_count_from_the_first_outer_dead_centre_by_default() -> None:
@@ -72,8 +72,8 @@ def test_angles_count_from_the_first_outer_dead_centre_by_default() -> None:
     # 1/3 is no binary fraction: the first dead centre is at 0, not short of a turn
     for first in (0.0, 100.0, 359.9, 1.0 / 3.0, 1e-13, 360.0, -90.0, 90.0 - 1e-14):
         expected = np.interp(angle - first % 360.0, UNEVEN["angle_deg"], UNEVEN["pressure_Pa"], period=720.0)
-        found = pressures(engine([first], [cylinder(UNEVEN)]), angle)
-        np.testing.assert_allclose(found[0, 0], expected, rtol=1e-9)  # independent
+        actual_pressures = pressures(engine([first], [cylinder(UNEVEN)]), angle)
+        np.testing.assert_allclose(actual_pressures[0, 0], expected, rtol=1e-9)  # independent
 
 
 @pytest.mark.parametrize("side", ["head", "crank"])
@@ -83,17 +83,17 @@ def test_work_of_a_trace_in_closed_form(side: str) -> None:
     body["throws"][0]["rows"][0]["connecting_rod"] = {"length_m": None}
     body["throws"][0]["rows"][0]["cylinder"]["pressure"] = {side: UNEVEN, "cycle_turns": 2}
     body["throws"][0]["rows"][0]["cylinder"]["acting"] = "head" if side == "head" else "crank"
-    made = machine(body)
-    plan = layout(made)
-    (one,) = traces(made, plan)
-    rows, area = plan.reciprocating, chambers(made).area[0, one.side]
+    design = machine(body)
+    plan = layout(design)
+    (record,) = traces(design, plan)
+    rows, area = plan.reciprocating, chambers(design).area[0, record.side]
     angle = np.deg2rad(np.append(UNEVEN["angle_deg"], UNEVEN["angle_deg"][0] + 720.0))
     pressure = np.append(UNEVEN["pressure_Pa"], UNEVEN["pressure_Pa"][0])
     slope = np.diff(pressure) / np.diff(angle)
     sign = -1.0 if side == "head" else 1.0
     volume = area * rows.crank_radius[0] * (np.diff(angle) + sign * np.diff(np.sin(angle)))
     expected = np.sum(slope * volume) / 2.0
-    assert float(work(made)) == pytest.approx(float(expected), rel=1e-12)
+    assert float(work(design)) == pytest.approx(float(expected), rel=1e-12)
 
 
 @pytest.mark.parametrize("lam", [0.05, 0.3, 0.9, 0.9999])
@@ -106,28 +106,28 @@ def test_work_of_a_polytropic_trace_is_that_of_the_cycle(lam: float) -> None:
     pressure[-1] = pressure[0]
     body = engine([0.0], [cylinder({"angle_deg": angle.tolist(), "pressure_Pa": pressure.tolist()}, turns=1)])
     body["throws"][0]["rows"][0]["connecting_rod"]["length_m"] = 0.05 / lam
-    made = machine(body)
-    assert abs(float(work(made))) < 1e-8 * np.max(pressure) * 2.0 * RADIUS * float(chambers(made).area[0, 0])
+    design = machine(body)
+    assert abs(float(work(design))) < 1e-8 * np.max(pressure) * 2.0 * RADIUS * float(chambers(design).area[0, 0])
 
 
 def test_breaks_are_the_entries_of_all_turns() -> None:
     two = engine([30.0, 210.0], [cylinder(UNEVEN, dead_centre_deg=390.0), cylinder(trace(60.0, 1), turns=1)])
-    made = machine(two)
-    plan = layout(made)
-    assert cycle_turns(made) == 2
-    found = np.rad2deg(break_angles(plan, (), traces(made, plan)))
+    design = machine(two)
+    plan = layout(design)
+    assert cycle_turns(design) == 2
+    values = np.rad2deg(break_angles(plan, (), traces(design, plan)))
     entries = np.concatenate([np.array(UNEVEN["angle_deg"]) + 390.0, 210.0 + np.arange(0.0, 720.0, 60.0)])
     dead = 30.0 + np.arange(0.0, 720.0, 180.0)
     expected = np.unique(np.round(np.concatenate([entries, dead]) % 720.0, 6) % 720.0)
     # a break at the end of the cycle is one at its beginning
-    np.testing.assert_allclose(np.unique(np.round(found % 720.0, 6) % 720.0), expected)
-    assert found.size <= expected.size + 1
+    np.testing.assert_allclose(np.unique(np.round(values % 720.0, 6) % 720.0), expected)
+    assert values.size <= expected.size + 1
 
 
 @pytest.mark.parametrize("step", [90.0, 7.5])
 def test_no_curve_leaves_its_pieces(step: float) -> None:
     # analytic: Taylor's theorem, at angles spread over every piece of both turns
-    turn = turn_of(engine(FOUR, [cylinder(trace(step), dead_centre_deg=one) for one in FOUR]))
+    turn = turn_of(engine(FOUR, [cylinder(trace(step), dead_centre_deg=value) for value in FOUR]))
     assert turn.turns == 2
     for reading in ("piston", "rod", "rod_at_rest", "tangential", "radial", "on_shaft"):
         curves = turn.curves(reading, np.eye(4)[None])  # type: ignore[arg-type]
@@ -143,14 +143,14 @@ def test_no_curve_leaves_its_pieces(step: float) -> None:
 
 def test_series_have_the_values_of_the_samples() -> None:
     body = engine(FOUR)
-    made = machine(body)
-    plan = layout(made)
+    design = machine(body)
+    plan = layout(design)
     turn = turn_of(body)
     angle = np.random.default_rng(3).uniform(0.0, 2.0 * TURN, 300)
-    found = forces(RowSeries(turn.rows, angle[None], None, angle[None], 0), "gas")
+    actual_forces = forces(RowSeries(turn.rows, angle[None], None, angle[None], 0), "gas")
     # independent: the forces of the samples
-    expected = gas_forces(chambers(made), motion(plan, angle), plan, traces(made, plan)).total
-    np.testing.assert_allclose(found[0, ..., 0].real, expected, rtol=1e-9, atol=1e-9 * np.max(np.abs(expected)))
+    expected = gas_forces(chambers(design), motion(plan, angle), plan, traces(design, plan)).total
+    np.testing.assert_allclose(actual_forces[0, ..., 0].real, expected, rtol=1e-9, atol=1e-9 * np.max(np.abs(expected)))
 
 
 def test_a_batch_is_the_loop() -> None:
@@ -162,26 +162,26 @@ def test_a_batch_is_the_loop() -> None:
         held["angle_deg"] = [*held["angle_deg"][:-1], 690.0 + k]
         parts.append(engine([float(first[k])], [cylinder(held, dead_centre_deg=float(first[k]) + 360.0)]))
     angle = np.deg2rad(np.linspace(0.0, 719.0, 144))
-    one = machine(parts[0])
-    throw = one.throws[0]
+    design = machine(parts[0])
+    throw = design.throws[0]
     row = throw.rows[0]
     assert row.cylinder is not None
     assert row.cylinder.pressure is not None
-    given = row.cylinder.pressure
-    assert given.head is not None
-    head = given.head.model_copy(
+    indicated_pressure = row.cylinder.pressure
+    assert indicated_pressure.head is not None
+    head = indicated_pressure.head.model_copy(
         update={
-            "pressure_Pa": (*given.head.pressure_Pa[:-1], last),
-            "angle_deg": (*given.head.angle_deg[:-1], 690.0 + np.arange(3.0)),
+            "pressure_Pa": (*indicated_pressure.head.pressure_Pa[:-1], last),
+            "angle_deg": (*indicated_pressure.head.angle_deg[:-1], 690.0 + np.arange(3.0)),
         }
     )
-    pressure = given.model_copy(update={"head": head, "dead_centre_deg": first + 360.0})
+    pressure = indicated_pressure.model_copy(update={"head": head, "dead_centre_deg": first + 360.0})
     row = row.model_copy(update={"cylinder": row.cylinder.model_copy(update={"pressure": pressure})})
-    many = one.model_copy(
+    many = design.model_copy(
         update={"throws": (throw.model_copy(update={"rows": (row,), "crank_angle_deg": 90.0 - first}),)}
     )
     plan = spread(layout(many), (3,))
-    found = gas_forces(chambers(many, (3,)), motion(plan, angle), plan, traces(many, plan))
+    actual_forces = gas_forces(chambers(many, (3,)), motion(plan, angle), plan, traces(many, plan))
     series = RowSeries(
         row_data(plan, True, None, chambers(many, (3,)), traces(many, plan)),
         np.broadcast_to(angle, (3, angle.size)),
@@ -195,7 +195,7 @@ def test_a_batch_is_the_loop() -> None:
         own = layout(alone)
         (single,) = traces(alone, own)
         expected = gas_forces(chambers(alone), motion(own, angle), own, (single,))
-        np.testing.assert_allclose(found.pressure[k], expected.pressure, rtol=1e-11)
+        np.testing.assert_allclose(actual_forces.pressure[k], expected.pressure, rtol=1e-11)
         np.testing.assert_allclose(forces(series, "gas")[k, ..., 0].real, expected.total, rtol=1e-9, atol=1e-6)
         assert float(batch[k]) == pytest.approx(float(work(alone)), rel=1e-9)
 
@@ -203,15 +203,17 @@ def test_a_batch_is_the_loop() -> None:
 @pytest.mark.parametrize("side", ["head", "crank"])
 def test_a_trace_on_one_side_leaves_the_other_open(side: str) -> None:
     """Independent: a piston whose acting side and rod are said."""
-    said = cylinder(UNEVEN)
-    said |= {"acting": side, "pressure": {side: UNEVEN, "cycle_turns": 2}}
+    actual_cylinder = cylinder(UNEVEN)
+    actual_cylinder |= {"acting": side, "pressure": {side: UNEVEN, "cycle_turns": 2}}
     named = ("bore_m", "ambient_pressure_Pa", "pressure", *(("piston_rod_diameter_m",) if side == "crank" else ()))
-    trunk = {name: said[name] for name in named}
+    trunk = {name: actual_cylinder[name] for name in named}
     assert not list(gas_problems(machine(engine([0.0], [trunk]))))
     angle = np.linspace(0.0, 719.0, 20)
-    np.testing.assert_array_equal(pressures(engine([0.0], [trunk]), angle), pressures(engine([0.0], [said]), angle))
+    np.testing.assert_array_equal(
+        pressures(engine([0.0], [trunk]), angle), pressures(engine([0.0], [actual_cylinder]), angle)
+    )
     area = chambers(machine(engine([0.0], [trunk]))).area
-    np.testing.assert_array_equal(area, chambers(machine(engine([0.0], [said]))).area)
+    np.testing.assert_array_equal(area, chambers(machine(engine([0.0], [actual_cylinder]))).area)
 
 
 @pytest.mark.parametrize(
@@ -243,7 +245,7 @@ def test_a_trace_on_one_side_leaves_the_other_open(side: str) -> None:
 def test_what_a_side_without_a_trace_needs_is_named_with_the_reason(
     fields: dict[str, Any], missing: dict[str, str]
 ) -> None:
-    given = {"bore_m": 0.1, "pressure": {"head": UNEVEN, "cycle_turns": 2}, **fields}
-    problems = gas_problems(machine(engine([0.0], [given])))
-    found = {str(one.path[-1]): one.message for one in problems}
-    assert found == {name: f"gas forces need this field{words}" for name, words in missing.items()}
+    actual_fields = {"bore_m": 0.1, "pressure": {"head": UNEVEN, "cycle_turns": 2}, **fields}
+    problems = gas_problems(machine(engine([0.0], [actual_fields])))
+    messages = {str(problem.path[-1]): problem.message for problem in problems}
+    assert messages == {name: f"gas forces need this field{words}" for name, words in missing.items()}

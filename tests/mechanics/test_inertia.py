@@ -107,29 +107,29 @@ def test_a_batch_is_the_same_as_one_machine_at_a_time() -> None:
     count = 1000 if ALL else 200
     layouts = [layout(random_machine(rng, "cw")) for _ in range(5 * count)]
     shape = layouts[0].reciprocating.mass.shape
-    alike = [one for one in layouts if one.reciprocating.mass.shape == shape][:count]
+    alike = [arrangement for arrangement in layouts if arrangement.reciprocating.mass.shape == shape][:count]
     assert len(alike) == count
     batch = stack(alike)
     unbalance = rng.normal(size=(count, 3)) + 1j * rng.normal(size=(count, 3))
     for effect in (rotating, lambda x: reciprocating(x, 1), lambda x: reciprocating(x, 2)):
         together = effect(batch)
-        for index, one in enumerate(alike):
-            alone = effect(one)
+        for index, alike_layout in enumerate(alike):
+            alone = effect(alike_layout)
             for pair, single in zip(together, alone, strict=True):
                 assert pair.co[index] == pytest.approx(complex(single.co), rel=1e-13, abs=1e-13)
                 assert pair.counter[index] == pytest.approx(complex(single.counter), rel=1e-13, abs=1e-13)
     together = counterweights(batch, unbalance)
-    for index, one in enumerate(alike):
+    for index, single_layout in enumerate(alike):
         assert together.moment.co[index] == pytest.approx(
-            complex(counterweights(one, unbalance[index]).moment.co), rel=1e-12, abs=1e-13
+            complex(counterweights(single_layout, unbalance[index]).moment.co), rel=1e-12, abs=1e-13
         )
 
 
 def test_a_short_arm_beside_a_long_span_keeps_its_digits_analytic() -> None:
     # a large mass next to the reference plane, next to nothing far away: the couple is 1 kg m times 1e-13 m
     far = throw(0, z=60.0, rotating_kg=1e-30)
-    found = rotating(layout(machine(throw(0, z=1e-13, rotating_kg=1.0 / RADIUS), far, reference_plane_m=0.0)))
-    assert found.moment.co == pytest.approx(1e-13, rel=1e-14)
+    wrench = rotating(layout(machine(throw(0, z=1e-13, rotating_kg=1.0 / RADIUS), far, reference_plane_m=0.0)))
+    assert wrench.moment.co == pytest.approx(1e-13, rel=1e-14)
 
 
 def test_responses_are_what_the_counterweights_do() -> None:
@@ -139,10 +139,10 @@ def test_responses_are_what_the_counterweights_do() -> None:
         unbalance = rng.normal(size=3) + 1j * rng.normal(size=3)
         baseline = rotating(arrays).plus(reciprocating(arrays, 1))
         expected = baseline.plus(counterweights(arrays, unbalance))
-        found: list[Phasors] = [r.to(unbalance) for r in first_order_responses(arrays, baseline)]
-        for pair, wanted in zip(found, expected, strict=True):
-            assert pair.co == pytest.approx(complex(wanted.co), abs=1e-11)
-            assert pair.counter == complex(wanted.counter)
+        phasors: list[Phasors] = [r.to(unbalance) for r in first_order_responses(arrays, baseline)]
+        for pair, harmonics in zip(phasors, expected, strict=True):
+            assert pair.co == pytest.approx(complex(harmonics.co), abs=1e-11)
+            assert pair.counter == complex(harmonics.counter)
 
 
 def test_no_rod_is_needed_for_the_first_order() -> None:
@@ -207,12 +207,12 @@ def test_crank_pins_turn_with_the_scroll_analytic() -> None:
 
 def test_of_two_designs_that_differ_in_a_place_alone_each_is_as_by_itself() -> None:
     """Two as many as phasors, and only one array has the leading axis."""
-    one = random_machine(np.random.default_rng(5))
-    first = one.throws[0]
+    design = random_machine(np.random.default_rng(5))
+    first = design.throws[0]
 
     def moved(position: Any) -> ReciprocatingMachine:
         there = first.model_copy(update={"position_m": position})
-        return one.model_copy(update={"throws": (there, *one.throws[1:]), "reference_plane_m": 0.1})
+        return design.model_copy(update={"throws": (there, *design.throws[1:]), "reference_plane_m": 0.1})
 
     plan = layout(moved(np.array([-1.0, 1.0])))
     for order in (1, 2):
@@ -230,11 +230,11 @@ def test_phasors_of_a_row_turn_by_its_crank_and_its_axis(seed: int, order: int) 
     """Analytic: halves of m r A_k at k d - (k - 1) g with the shaft, and at (k + 1) g - k d against it."""
     plan = layout(random_machine(np.random.default_rng(seed)))
     rows = plan.reciprocating
-    found = reciprocating_forces(plan, order)
+    phasors = reciprocating_forces(plan, order)
     crank, axis = np.angle(rows.crank_direction), np.angle(rows.axis)
     size = 0.5 * rows.mass * rows.crank_radius * acceleration_harmonic(order, rows.rod_ratio)
-    np.testing.assert_allclose(found.co, size * np.exp(1j * (order * crank - (order - 1) * axis)), atol=1e-12)
-    np.testing.assert_allclose(found.counter, size * np.exp(1j * ((order + 1) * axis - order * crank)), atol=1e-12)
+    np.testing.assert_allclose(phasors.co, size * np.exp(1j * (order * crank - (order - 1) * axis)), atol=1e-12)
+    np.testing.assert_allclose(phasors.counter, size * np.exp(1j * ((order + 1) * axis - order * crank)), atol=1e-12)
 
 
 @pytest.mark.parametrize("seed", range(5))

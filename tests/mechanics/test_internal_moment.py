@@ -24,9 +24,9 @@ def test_counterweights_on_the_throws_leave_none() -> None:
 def test_it_is_the_same_from_both_ends() -> None:
     """Metamorphic: the throws in the opposite order, balanced or not."""
     cranks, places = [0.0, 40.0, 170.0, 200.0], [0.0, 0.3, 0.5, 1.1]
-    one = layout(machine(*inline(cranks, places)))
-    other = layout(machine(*inline(cranks[::-1], [1.1 - place for place in places[::-1]])))
-    assert internal_moment(one) == pytest.approx(internal_moment(other), rel=1e-12)
+    first_layout = layout(machine(*inline(cranks, places)))
+    second_layout = layout(machine(*inline(cranks[::-1], [1.1 - place for place in places[::-1]])))
+    assert internal_moment(first_layout) == pytest.approx(internal_moment(second_layout), rel=1e-12)
 
 
 def test_rows_in_line_swing_and_masses_turn() -> None:

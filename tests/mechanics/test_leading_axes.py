@@ -15,10 +15,10 @@ from tests.mechanics.functions import FUNCTIONS, LEADING, arrays_of, curves_of, 
 @pytest.mark.parametrize("name", FUNCTIONS)
 def test_designs_together_are_as_each_alone(name: str) -> None:
     function = FUNCTIONS[name]
-    found = list(arrays_of(function(together())))
-    each = [list(arrays_of(function(one))) for one in designs()]
-    assert len(found) == len(each[0]) > 0
-    for part, expected in zip(found, zip(*each, strict=True), strict=True):
+    columns = list(arrays_of(function(together())))
+    actual_arrays = [list(arrays_of(function(design))) for design in designs()]
+    assert len(columns) == len(actual_arrays[0]) > 0
+    for part, expected in zip(columns, zip(*actual_arrays, strict=True), strict=True):
         alone = np.stack(expected)
         assert part.shape == (*LEADING, *alone.shape[1:])
         size = np.max(np.abs(alone[np.isfinite(alone)]), initial=0.0)
@@ -52,9 +52,9 @@ def test_what_is_common_to_designs_is_spread_over_all() -> None:
     plan, _ = arrays(random_driven(1, "v", throws=2))
     wide = spread(plan, LEADING)
     assert wide.central == plan.central
-    for one, other in zip(arrays_of(wide), arrays_of(plan), strict=True):
-        assert one.shape == (*LEADING, *other.shape)
-        assert np.array_equal(one, np.broadcast_to(other, one.shape), equal_nan=True)
+    for first, second in zip(arrays_of(wide), arrays_of(plan), strict=True):
+        assert first.shape == (*LEADING, *second.shape)
+        assert np.array_equal(first, np.broadcast_to(second, first.shape), equal_nan=True)
 
 
 def test_scatter_of_phasors_is_weighed_as_their_components() -> None:

@@ -76,10 +76,10 @@ def test_everything_broadcasts() -> None:
     co, counter = rng.normal(size=(2, 3, 4)) + 1j * rng.normal(size=(2, 3, 4))
     pair = Phasors(co, counter)
     for index in np.ndindex(3, 4):
-        one = phasors(co[index], counter[index])
+        harmonics = phasors(co[index], counter[index])
         for name in ("peak", "minor", "major_axis_deg"):
-            assert getattr(pair, name)[index] == getattr(one, name)
-        assert pair.peak_along(np.asarray(1j))[index] == one.peak_along(np.asarray(1j))
+            assert getattr(pair, name)[index] == getattr(harmonics, name)
+        assert pair.peak_along(np.asarray(1j))[index] == harmonics.peak_along(np.asarray(1j))
 
 
 def test_arithmetic() -> None:

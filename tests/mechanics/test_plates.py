@@ -16,9 +16,9 @@ EACH = (AnnularSector(0.05, 0.2, 100.0, 1.2), Segment(0.03, 0.25, 300.0, 1.5), A
 def test_figures_are_those_of_each_plate(name: str) -> None:
     # property, along any leading axes
     angle = np.array([[0.1, 0.2, 0.3], [0.7, 0.6, 0.5]])
-    found = getattr(MIXED, name)(angle)
+    actual = getattr(MIXED, name)(angle)
     for n, plate in enumerate(EACH):
-        assert found[:, n] == pytest.approx(getattr(plate, name)(angle[:, n]), rel=1e-14)
+        assert actual[:, n] == pytest.approx(getattr(plate, name)(angle[:, n]), rel=1e-14)
 
 
 def test_openings_and_chords_are_those_of_each_plate() -> None:
@@ -49,6 +49,6 @@ def test_openings_near_a_right_angle_are_those_of_their_masses(below: float) -> 
     angle = full - np.full(2, below)
     mass, unbalance = plates.mass(angle), plates.unbalance(angle)
     for rounding in (-1e-15, 0.0, 1e-15):
-        found = plates.opened_by_mass(mass, unbalance * (1.0 + rounding) / mass)
-        assert plates.mass(found) == pytest.approx(mass, rel=1e-13)
-        assert np.all(found <= full)
+        opened_by_mass = plates.opened_by_mass(mass, unbalance * (1.0 + rounding) / mass)
+        assert plates.mass(opened_by_mass) == pytest.approx(mass, rel=1e-13)
+        assert np.all(opened_by_mass <= full)

@@ -36,8 +36,8 @@ def scale(machine: ReciprocatingMachine) -> Any:
     return np.array([force, force, 1.0, 1.0]) + np.array([0, 0, 1, 1]) * (16 * moment_scale(arrays) + 2 * far)
 
 
-def assert_same(found: Complex, expected: Complex, machine: ReciprocatingMachine) -> None:
-    assert np.all(np.abs(found - expected) <= 1e-12 * scale(machine))
+def assert_same(values: Complex, expected: Complex, machine: ReciprocatingMachine) -> None:
+    assert np.all(np.abs(values - expected) <= 1e-12 * scale(machine))
 
 
 def with_throws(machine: ReciprocatingMachine, change: Callable[[Throw], dict[str, Any]]) -> ReciprocatingMachine:
@@ -54,11 +54,11 @@ def pinned(machine: ReciprocatingMachine) -> ReciprocatingMachine:
 
 
 @given(machines(), machines())
-def test_superposition(one: ReciprocatingMachine, other: ReciprocatingMachine) -> None:
-    one = pinned(one).model_copy(update={"webs": ()})
-    other = other.model_copy(update={"webs": (), "reference_plane_m": one.reference_plane_m})
-    both = one.model_copy(update={"throws": one.throws + other.throws})
-    assert_same(phasors(both), phasors(one) + phasors(other), both)
+def test_superposition(machine: ReciprocatingMachine, second_machine: ReciprocatingMachine) -> None:
+    machine = pinned(machine).model_copy(update={"webs": ()})
+    second_machine = second_machine.model_copy(update={"webs": (), "reference_plane_m": machine.reference_plane_m})
+    both = machine.model_copy(update={"throws": machine.throws + second_machine.throws})
+    assert_same(phasors(both), phasors(machine) + phasors(second_machine), both)
 
 
 @given(machines(), ANGLES)
@@ -84,9 +84,9 @@ def test_mirroring_the_machine_mirrors_every_vector(machine: ReciprocatingMachin
 @given(machines())
 def test_the_sense_of_rotation_changes_no_phasor(machine: ReciprocatingMachine) -> None:
     """Angles are as drawn at shaft angle 0: turning the other way exchanges nothing but the direction of time."""
-    other = machine.model_copy(update={"rotation": "cw" if machine.rotation == "ccw" else "ccw"})
-    assert np.array_equal(phasors(other), phasors(machine))
-    assert layout(other).sense == -layout(machine).sense
+    variant = machine.model_copy(update={"rotation": "cw" if machine.rotation == "ccw" else "ccw"})
+    assert np.array_equal(phasors(variant), phasors(machine))
+    assert layout(variant).sense == -layout(machine).sense
 
 
 @given(machines(), st.floats(1e-3, 1e3))
@@ -144,9 +144,9 @@ def test_the_order_of_throws_rows_and_webs_does_not_matter(machine: Reciprocatin
     arrays = layout(mixed)
     moved = counterweights(arrays, UNBALANCE[list(order)])
     expected_moved = np.array([moved.force.co, moved.force.counter, moved.moment.co, moved.moment.counter])
-    found = phasors(mixed)
-    found[1] = expected_moved
-    assert_same(found, expected, machine)
+    harmonics = phasors(mixed)
+    harmonics[1] = expected_moved
+    assert_same(harmonics, expected, machine)
 
 
 @given(machines(), POSITIONS)

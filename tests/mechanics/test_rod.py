@@ -35,9 +35,9 @@ def drawing(plan: Layout) -> tuple[Complex, Complex]:
 
 def test_published_decomposition() -> None:
     plan = layout(machine(throw(0.0, row(0.0, length_m=RADIUS / 0.2))))
-    found = rod_forces(np.array([[50e3]]), motion(plan, np.deg2rad([50.0])), plan)
+    forces = rod_forces(np.array([[50e3]]), motion(plan, np.deg2rad([50.0])), plan)
     # published: 50 kN at 50 degrees, rod ratio 0.2
-    figures = [found.side, found.rod, found.tangential, found.radial, found.torque, found.overturning]
+    figures = [forces.side, forces.rod, forces.tangential, forces.radial, forces.torque, forces.overturning]
     expected = [7751.965489693671, 50597.36128449192, 43285.08952344164, 26201.030397697043] + 2 * [6059.91253328183]
     np.testing.assert_allclose(np.ravel(figures), expected, rtol=1e-12)
 
@@ -45,7 +45,7 @@ def test_published_decomposition() -> None:
 @pytest.mark.parametrize("seed", range(8))
 def test_forces_are_those_of_the_drawing(seed: int) -> None:
     plan, force = random_layout(seed)
-    found = rod_forces(force, motion(plan, THETA), plan)
+    forces = rod_forces(force, motion(plan, THETA), plan)
     pin, crosshead = drawing(plan)
     along, axis = crosshead - pin, plan.reciprocating.axis[:, None]
     along /= np.abs(along)
@@ -54,38 +54,38 @@ def test_forces_are_those_of_the_drawing(seed: int) -> None:
     crank = pin / np.abs(pin)
     on_pin = pull * along * np.conj(crank)
     scale = 1e-12 * np.abs(force).max()
-    np.testing.assert_allclose(found.rod, pull, rtol=1e-12)
-    np.testing.assert_allclose(found.radial, on_pin.real, atol=scale)
-    np.testing.assert_allclose(found.tangential, -plan.sense * on_pin.imag, atol=scale)
+    np.testing.assert_allclose(forces.rod, pull, rtol=1e-12)
+    np.testing.assert_allclose(forces.radial, on_pin.real, atol=scale)
+    np.testing.assert_allclose(forces.tangential, -plan.sense * on_pin.imag, atol=scale)
     across = np.imag(-pull * along * np.conj(axis))  # of the rod on the crosshead, which the guide takes
-    np.testing.assert_allclose(found.side, plan.sense * across, atol=scale)
+    np.testing.assert_allclose(forces.side, plan.sense * across, atol=scale)
     lever = np.abs(crosshead)
-    np.testing.assert_allclose(found.overturning, found.side * lever, rtol=1e-9, atol=scale)
+    np.testing.assert_allclose(forces.overturning, forces.side * lever, rtol=1e-9, atol=scale)
 
 
 @pytest.mark.parametrize("seed", range(8))
 def test_overturning_is_torque_and_virtual_work_holds(seed: int) -> None:
     plan, force = random_layout(seed)
     moving = motion(plan, THETA)
-    found = rod_forces(force, moving, plan)
+    forces = rod_forces(force, moving, plan)
     scale = np.abs(force).max() * plan.reciprocating.crank_radius.max()
-    np.testing.assert_allclose(found.overturning, found.torque, atol=1e-14 * scale)  # analytic
+    np.testing.assert_allclose(forces.overturning, forces.torque, atol=1e-14 * scale)  # analytic
     # analytic: what the piston takes the shaft gives, at every instant
-    np.testing.assert_allclose(force * moving.velocity, found.torque * plan.omega, atol=1e-13 * scale * plan.omega)
-    np.testing.assert_allclose(found.tangential**2 + found.radial**2, found.rod**2, rtol=1e-12)
-    np.testing.assert_allclose(force**2 + found.side**2, found.rod**2, rtol=1e-12)
+    np.testing.assert_allclose(force * moving.velocity, forces.torque * plan.omega, atol=1e-13 * scale * plan.omega)
+    np.testing.assert_allclose(forces.tangential**2 + forces.radial**2, forces.rod**2, rtol=1e-12)
+    np.testing.assert_allclose(force**2 + forces.side**2, forces.rod**2, rtol=1e-12)
 
 
 def test_infinite_rod() -> None:
     plan = layout(machine(throw(0.0, row(0.0, length_m=None))))
     force = np.full((1, THETA.size), 1000.0)
-    found = rod_forces(force, motion(plan, THETA), plan)
+    forces = rod_forces(force, motion(plan, THETA), plan)
     # analytic: a Scotch yoke
-    np.testing.assert_array_equal(found.rod, force)
-    np.testing.assert_array_equal(found.side, 0.0)
-    np.testing.assert_allclose(found.tangential[0], 1000.0 * np.sin(THETA), atol=1e-12)
-    np.testing.assert_allclose(found.radial[0], 1000.0 * np.cos(THETA), atol=1e-12)
-    np.testing.assert_allclose(found.overturning, found.torque, atol=1e-12)
+    np.testing.assert_array_equal(forces.rod, force)
+    np.testing.assert_array_equal(forces.side, 0.0)
+    np.testing.assert_allclose(forces.tangential[0], 1000.0 * np.sin(THETA), atol=1e-12)
+    np.testing.assert_allclose(forces.radial[0], 1000.0 * np.cos(THETA), atol=1e-12)
+    np.testing.assert_allclose(forces.overturning, forces.torque, atol=1e-12)
 
 
 def _shaking(plan: Layout, theta: float) -> complex:
@@ -116,10 +116,10 @@ def test_all_forces_on_the_frame_add_up_to_the_shaking_force(seed: int, style: s
     gas = gas_forces(data, moving, plan).total
     friction = reciprocating_friction(moving, np.linspace(10.0, 1e4, gas.shape[0]))
     force = gas + friction + plan.reciprocating.mass[:, None] * moving.acceleration
-    found = rod_forces(force, moving, plan)
+    forces = rod_forces(force, moving, plan)
     axis = plan.reciprocating.axis[:, None]
     _, loads = shaft_loads(force, moving, plan, THETA)
-    guides = 1j * plan.sense * found.side * axis
+    guides = 1j * plan.sense * forces.side * axis
     covers, cylinders = -gas * axis, -friction * axis
     on_frame = loads.sum(axis=0) + (guides + covers + cylinders).sum(axis=0)
     expected = np.array([_shaking(plan, theta) for theta in THETA])  # independent
@@ -152,17 +152,17 @@ def test_torque_of_the_shaft_loads() -> None:
 
 
 def test_a_batch_is_the_loop() -> None:
-    made = [arrays(random_driven(seed, "w", throws=2))[0] for seed in range(3)]
-    plan = stack(made)
+    layouts = [arrays(random_driven(seed, "w", throws=2))[0] for seed in range(3)]
+    plan = stack(layouts)
     angle = np.stack([THETA, 2.0 * THETA, 0.3 + THETA])
     force = np.random.default_rng(1).uniform(-1e4, 1e4, (3, 6, THETA.size))
     moving = motion(plan, angle)
     batch, (planes, loads) = rod_forces(force, moving, plan), shaft_loads(force, moving, plan, angle)
-    for k, one in enumerate(made):
-        alone = motion(one, angle[k])
-        single = rod_forces(force[k], alone, one)
+    for k, arrangement in enumerate(layouts):
+        alone = motion(arrangement, angle[k])
+        single = rod_forces(force[k], alone, arrangement)
         for name in ("rod", "side", "tangential", "radial", "torque", "overturning"):
             np.testing.assert_allclose(getattr(batch, name)[k], getattr(single, name), rtol=1e-12, atol=1e-9)
-        own_planes, own_loads = shaft_loads(force[k], alone, one, angle[k])
+        own_planes, own_loads = shaft_loads(force[k], alone, arrangement, angle[k])
         np.testing.assert_array_equal(planes[k], own_planes)
         np.testing.assert_allclose(loads[k], own_loads, rtol=1e-12)

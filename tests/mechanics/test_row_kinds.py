@@ -60,11 +60,11 @@ def test_curves_are_those_of_rows_one_by_one(count: int, style: str) -> None:
     assert turn.kinds.first.size == len(body["throws"][0]["rows"])
     for reading in _READINGS:
         curves, expected = _curves(turn, reading, count), _curves(single, reading, count)
-        pieces, wanted = curves.pieces, expected.pieces
-        size = np.max(wanted.size)
-        assert pieces.cubic == pytest.approx(wanted.cubic, rel=0.0, abs=1e-12 * size), reading
-        assert pieces.rest == pytest.approx(wanted.rest, rel=1e-9, abs=1e-15 * size), reading
-        assert pieces.size == pytest.approx(wanted.size, rel=1e-12), reading
+        pieces, segments = curves.pieces, expected.pieces
+        size = np.max(segments.size)
+        assert pieces.cubic == pytest.approx(segments.cubic, rel=0.0, abs=1e-12 * size), reading
+        assert pieces.rest == pytest.approx(segments.rest, rel=1e-9, abs=1e-15 * size), reading
+        assert pieces.size == pytest.approx(segments.size, rel=1e-12), reading
         assert curves.mean == pytest.approx(expected.mean, abs=1e-12 * size), reading
         assert curves.variance == pytest.approx(expected.variance, rel=1e-9, abs=1e-13 * size**2), reading
         assert np.all(curves.rms_error <= 1e-9 * size), reading
@@ -91,8 +91,8 @@ def test_a_row_that_differs_is_of_a_kind_of_its_own(field: str, value: Any) -> N
         assert kinds.kind[1] not in np.delete(kinds.kind, 1)
     for reading in _READINGS:
         pieces = _curves(turn, reading, 1).pieces
-        wanted = _curves(_turn(body, kinds=False), reading, 1).pieces
-        assert pieces.cubic == pytest.approx(wanted.cubic, rel=0.0, abs=1e-12 * np.max(wanted.size)), reading
+        segments = _curves(_turn(body, kinds=False), reading, 1).pieces
+        assert pieces.cubic == pytest.approx(segments.cubic, rel=0.0, abs=1e-12 * np.max(segments.size)), reading
 
 
 def test_kinds_need_pieces_that_repeat() -> None:

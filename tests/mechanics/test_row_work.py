@@ -32,8 +32,8 @@ class Case:
 
     def torque(self, turn: Turn) -> Real:
         """Of all rows, at the nodes of panels, N m."""
-        found: Real = np.sum(self.whole.rows.crank_radius.T * self.whole.tangential(turn)[0], axis=0)
-        return found
+        total: Real = np.sum(self.whole.rows.crank_radius.T * self.whole.tangential(turn)[0], axis=0)
+        return total
 
 
 def case(seed: int, style: str, rod_ratio: float | None = None, **rest: Any) -> Case:
@@ -44,66 +44,68 @@ def case(seed: int, style: str, rod_ratio: float | None = None, **rest: Any) -> 
                 row["connecting_rod"]["length_m"] = throw["crank_radius_m"] / rod_ratio
     machine = ReciprocatingMachine.model_validate(body)
     plan = layout(machine)
-    found = run(machine, plan, ("gas", "friction", "whole_turn"), Fidelity(), np.zeros(1))
-    friction = found["friction"].magnitude if "friction" in found else None
+    effects = run(machine, plan, ("gas", "friction", "whole_turn"), Fidelity(), np.zeros(1))
+    friction = effects["friction"].magnitude if "friction" in effects else None
     return Case(
-        RowWork(plan, friction, found["gas"].chambers), found["whole_turn"], break_angles(plan, found["gas"].opens)
+        RowWork(plan, friction, effects["gas"].chambers),
+        effects["whole_turn"],
+        break_angles(plan, effects["gas"].opens),
     )
 
 
 @pytest.mark.parametrize("style", STYLES)
 @pytest.mark.parametrize("seed", range(4))
 def test_the_work_of_a_turn_is_that_of_the_torque(seed: int, style: str) -> None:
-    one = case(seed, style)
-    turn = one.panels()
-    radius = one.whole.rows.crank_radius[0]
-    by_row = [TURN * float(mean(turn, force)) for force in radius[:, None] * one.whole.tangential(turn)[0]]
+    instance = case(seed, style)
+    turn = instance.panels()
+    radius = instance.whole.rows.crank_radius[0]
+    by_row = [TURN * float(mean(turn, force)) for force in radius[:, None] * instance.whole.tangential(turn)[0]]
     # independent: by Gauss quadrature of the tangential forces
-    assert one.work.of_a_turn == pytest.approx(np.array(by_row), rel=1e-11)
+    assert instance.work.of_a_turn == pytest.approx(np.array(by_row), rel=1e-11)
 
 
 @pytest.mark.parametrize("style", STYLES)
 @pytest.mark.parametrize("rod_ratio", [1e-6, None, 0.9])
 @pytest.mark.parametrize("friction", [None, {"mechanical_efficiency": 0.9, "reciprocating_share": 0.6}])
 def test_from_one_angle_to_another(style: str, rod_ratio: float | None, friction: dict[str, float] | None) -> None:
-    one = case(5, style, rod_ratio, friction=friction)
-    turn = one.panels()
-    over_mean = one.torque(turn) - np.sum(one.work.of_a_turn) / TURN
+    instance = case(5, style, rod_ratio, friction=friction)
+    turn = instance.panels()
+    over_mean = instance.torque(turn) - np.sum(instance.work.of_a_turn) / TURN
     nodes = turn.rule.weights.size
     of_panel = over_mean.reshape(-1, nodes) @ turn.rule.weights * (0.5 * turn.width)
     # independent: by Gauss quadrature, from panel to panel
     running = np.concatenate([[0.0], np.cumsum(of_panel)])
-    found = one.work.beside_mean(np.append(turn.start, TURN))
-    assert found - found[0] == pytest.approx(running, rel=1e-11, abs=1e-12 * np.max(np.abs(found)))
+    beside_mean = instance.work.beside_mean(np.append(turn.start, TURN))
+    assert beside_mean - beside_mean[0] == pytest.approx(running, rel=1e-11, abs=1e-12 * np.max(np.abs(beside_mean)))
 
 
 @pytest.mark.parametrize("style", STYLES)
 @pytest.mark.parametrize("seed", range(4))
 def test_its_range_is_what_a_flywheel_takes_up(seed: int, style: str) -> None:
-    one = case(seed, style)
-    turn, found = one.panels(), one.work.fluctuation(one.whole.torque)
+    instance = case(seed, style)
+    turn, span = instance.panels(), instance.work.fluctuation(instance.whole.torque)
     # independent: by the interpolants of the torque
-    assert found.value == pytest.approx(float(fluctuation(turn, one.torque(turn))), rel=1e-12)
-    assert found.error <= 1e-9 * found.value
+    assert span.value == pytest.approx(float(fluctuation(turn, instance.torque(turn))), rel=1e-12)
+    assert span.error <= 1e-9 * span.value
 
 
 @pytest.mark.parametrize("rod_ratio", [0.99, 0.9999])
 def test_the_error_covers_rods_hardly_longer_than_the_crank(rod_ratio: float) -> None:
     for seed in range(4):
-        one = case(seed, "v", rod_ratio)
-        turn, found = one.panels(), one.work.fluctuation(one.whole.torque)
-        by_quadrature = float(fluctuation(turn, one.torque(turn)))
-        assert abs(found.value - by_quadrature) <= found.error + 1e-10 * by_quadrature
+        instance = case(seed, "v", rod_ratio)
+        turn, span = instance.panels(), instance.work.fluctuation(instance.whole.torque)
+        by_quadrature = float(fluctuation(turn, instance.torque(turn)))
+        assert abs(span.value - by_quadrature) <= span.error + 1e-10 * by_quadrature
 
 
 def test_more_angles_change_no_bit() -> None:
-    one = case(1, "w")
+    instance = case(1, "w")
     angle = np.linspace(0.0, TURN, 7)
-    together = one.work.beside_mean(angle)
-    assert np.array_equal(one.work.beside_mean(angle[2:4]), together[2:4])
+    together = instance.work.beside_mean(angle)
+    assert np.array_equal(instance.work.beside_mean(angle[2:4]), together[2:4])
 
 
 def test_the_slope_of_a_cubic_is_its_derivative() -> None:
     """Analytic: of 5 + 7 x - 2 x^2 + 3 x^3 at -1, 0 and 0.5."""
-    found = _slope.py_func([5.0, 7.0, -2.0, 3.0], np.array([-1.0, 0.0, 0.5]))
-    assert found == pytest.approx([20.0, 7.0, 7.25], rel=1e-14)
+    actual = _slope.py_func([5.0, 7.0, -2.0, 3.0], np.array([-1.0, 0.0, 0.5]))
+    assert actual == pytest.approx([20.0, 7.0, 7.25], rel=1e-14)

@@ -48,7 +48,7 @@ def test_twelve_rows_have_few_corners_that_matter() -> None:
     signs = worst_signs(parts, 1.0, 1.0)
     assert len(signs) <= 2 * 12**2
     base = Phasors(np.sum(parts.co), np.sum(parts.counter))
-    few, all_of = ((base + changed(parts, each, 0.01)).peak for each in (signs, _corners(12)))
+    few, all_of = ((base + changed(parts, values, 0.01)).peak for values in (signs, _corners(12)))
     assert np.max(few) == pytest.approx(np.max(all_of), rel=1e-13)
     assert base.peak < np.max(few) < base.peak + 0.01 * 24.0
 
@@ -63,7 +63,7 @@ def test_alternate_rows_of_an_opposed_pair_are_the_worst() -> None:
 def test_parts_of_rows_sum_to_the_force_of_all() -> None:
     plan = layout(machine(*inline([0.0, 120.0, 240.0], [0.0, 1.0, 2.5]), throw(40.0, row(10.0), row(70.0, 4.0), z=3.0)))
     parts, whole = row_parts(plan), reciprocating(plan, 1)
-    for one, other in ((parts.force, whole.force), (parts.moment, whole.moment)):
-        assert one.co.shape == (5,)
-        assert np.sum(one.co) == pytest.approx(other.co)
-        assert np.sum(one.counter) == pytest.approx(other.counter)
+    for force, second_force in ((parts.force, whole.force), (parts.moment, whole.moment)):
+        assert force.co.shape == (5,)
+        assert np.sum(force.co) == pytest.approx(second_force.co)
+        assert np.sum(force.counter) == pytest.approx(second_force.counter)

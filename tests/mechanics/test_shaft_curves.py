@@ -25,7 +25,7 @@ from tests.analyze.driven import arrays, random_driven
 MODELS = (simple_spans_influence, continuous_beam_influence)
 
 
-def _one_throw(rod_length_m: float | None) -> Layout:
+def _single_throw(rod_length_m: float | None) -> Layout:
     """A crank of m r = 1 between two webs and two bearings, a rotating mass and a reciprocating one of 1 kg m each."""
     rod = {"length_m": rod_length_m, "mass_kg": 0.0, "reciprocating_share": 0.3}
     row = {"axis_deg": 0, "reciprocating_mass_kg": 1.0, "connecting_rod": rod}
@@ -56,13 +56,13 @@ def test_responses_have_the_values_of_the_samples(model) -> None:  # type: ignor
     carried = model(places, where) @ loads
     responses = bearing_loads(turn, plan, ("A", "B", "C"), places, model)
     for response, expected in zip(responses, carried, strict=True):
-        found = (response.at(angle) + response.offset(u)) * turned * square
-        assert found == pytest.approx(expected, rel=1e-9, abs=1e-9 * np.max(np.abs(carried)))
+        offset = (response.at(angle) + response.offset(u)) * turned * square
+        assert offset == pytest.approx(expected, rel=1e-9, abs=1e-9 * np.max(np.abs(carried)))
     bent = bending_moments(turn, plan, places, model)
     corners = np.array([float(response.name.removeprefix("bending:")) for response in bent])
     for response, expected in zip(bent, bending_moment(places, carried, where, loads, corners), strict=True):
-        found = (response.at(angle) + response.offset(u)) * turned * square
-        assert found == pytest.approx(expected, rel=1e-9, abs=1e-9 * np.max(np.abs(carried)))
+        offset = (response.at(angle) + response.offset(u)) * turned * square
+        assert offset == pytest.approx(expected, rel=1e-9, abs=1e-9 * np.max(np.abs(carried)))
 
 
 @pytest.mark.parametrize(("rod", "share", "radius"), [(None, 0.5, 0.25), (3.0, 0.661, 0.346038)])
@@ -71,12 +71,12 @@ def test_one_throw_between_two_bearings(rod: float | None, share: float, radius:
 
     Published in the mathematics of this project for a rod ratio of 1/3: 0.346038 m_rec, at a share of 0.661.
     """
-    plan = _one_throw(rod)
+    plan = _single_throw(rod)
     turn = whole_turn(row_data(plan, True, None, None), break_angles(plan))
     for response in bearing_loads(turn, plan, "AB", np.array([-0.5, 0.5]), simple_spans_influence):
-        found = floor(response, 1e-9)
-        assert found.circle.radius == pytest.approx(radius, abs=5e-7)
-        assert found.circle.centre == pytest.approx((1.0 + share) / 2, abs=5e-4)
+        lower_limit = floor(response, 1e-9)
+        assert lower_limit.circle.radius == pytest.approx(radius, abs=5e-7)
+        assert lower_limit.circle.centre == pytest.approx((1.0 + share) / 2, abs=5e-4)
         if rod is None:
             assert response.peak(0.0, 1e-12).upper == pytest.approx(1.0, rel=1e-9)
 
@@ -92,7 +92,7 @@ def test_one_throw_between_two_bearings(rod: float | None, share: float, radius:
     ],
 )
 def test_planes_in_which_the_shaft_is_bent(places: list[float], bent: list[float]) -> None:
-    plan = _one_throw(None)
+    plan = _single_throw(None)
     turn = whole_turn(row_data(plan, True, None, None), break_angles(plan))
     responses = bending_moments(turn, plan, np.array(places), simple_spans_influence)
     assert [response.name for response in responses] == [f"bending:{plane!r}" for plane in bent]
@@ -100,7 +100,7 @@ def test_planes_in_which_the_shaft_is_bent(places: list[float], bent: list[float
 
 def test_planes_that_coincide_in_every_design_count_once() -> None:
     """Analytic: webs at -0.5 and 0.5 m, a throw at 0, bearings below the webs; then the first web 0.1 m further in."""
-    plan, places = _one_throw(None), np.array([-0.5, 0.5])
+    plan, places = _single_throw(None), np.array([-0.5, 0.5])
     assert stations(plan, places).tolist() == [-0.5, 0.0, 0.5]
     both = replace(plan, webs=replace(plan.webs, position=np.array([[-0.5, 0.5], [-0.4, 0.5]])))
     assert stations(both, places).tolist() == [[-0.5, -0.5, 0.0, 0.5], [-0.5, -0.4, 0.0, 0.5]]

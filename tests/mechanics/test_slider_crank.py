@@ -44,8 +44,8 @@ def by_quadrature(order: int, ratio: float) -> float:
 @pytest.mark.parametrize("ratio", RATIOS)
 @pytest.mark.parametrize("order", [1, 2, 3, 4, 6, 8])
 def test_harmonics_independent(order: int, ratio: float) -> None:
-    found = float(acceleration_harmonic(order, np.asarray(ratio)))
-    assert found == pytest.approx(by_quadrature(order, ratio), rel=1e-13, abs=1e-40)
+    harmonic = float(acceleration_harmonic(order, np.asarray(ratio)))
+    assert harmonic == pytest.approx(by_quadrature(order, ratio), rel=1e-13, abs=1e-40)
 
 
 @pytest.mark.parametrize(

@@ -46,69 +46,75 @@ def answer(rows: list[dict[str, Any]], **more: Any) -> AnalyzeAnswer:
     return analyze(AnalyzeRequest.model_validate(request))
 
 
-def gas(found: AnalyzeAnswer, row: int = 0) -> Any:
-    assert found.gas is not None
-    return found.gas.rows[row]
+def gas(analysis: AnalyzeAnswer, row: int = 0) -> Any:
+    assert analysis.gas is not None
+    return analysis.gas.rows[row]
 
 
 def test_forces_of_a_tandem_row_add_analytic() -> None:
     both = answer([{"cylinders": [FIRST, SECOND]}, {"cylinder": SECOND}])
-    one, other = answer([{"cylinder": FIRST}]), answer([{"cylinder": SECOND}, {"cylinder": SECOND}])
-    summed = np.add(gas(one).force_N, gas(other).force_N)
+    first_answer, second_answer = answer([{"cylinder": FIRST}]), answer([{"cylinder": SECOND}, {"cylinder": SECOND}])
+    summed = np.add(gas(first_answer).force_N, gas(second_answer).force_N)
     np.testing.assert_allclose(gas(both).force_N, summed, rtol=1e-13, atol=1e-9)
-    assert gas(both).indicated_power_W == pytest.approx(gas(one).indicated_power_W + gas(other).indicated_power_W)
+    assert gas(both).indicated_power_W == pytest.approx(
+        gas(first_answer).indicated_power_W + gas(second_answer).indicated_power_W
+    )
     # the row beside it has its two sides and no more, as if it were alone
-    assert gas(both, 1) == gas(other, 1)
-    assert [(one.cylinder, one.side) for one in gas(both).chambers] == [
+    assert gas(both, 1) == gas(second_answer, 1)
+    assert [(chamber.cylinder, chamber.side) for chamber in gas(both).chambers] == [
         (0, "head"), (0, "crank"), (1, "head"), (1, "crank"),
     ]  # fmt: skip
-    assert [one.pressure_Pa for one in gas(both).chambers[2:]] == [one.pressure_Pa for one in gas(other).chambers]
+    assert [chamber.pressure_Pa for chamber in gas(both).chambers[2:]] == [
+        chamber.pressure_Pa for chamber in gas(second_answer).chambers
+    ]
 
 
 def test_rod_loads_and_bearings_are_of_the_sum_analytic() -> None:
     """Of cylinders in the same state, one with both areas is the same row."""
     areas = [{"head_area_m2": 0.1, "crank_area_m2": 0.09}, {"head_area_m2": 0.06, "crank_area_m2": 0.05}]
     state = {name: value for name, value in FIRST.items() if not name.endswith("_m")}
-    apart = answer([{"cylinders": [state | one for one in areas]}, {"cylinder": SECOND}])
+    apart = answer([{"cylinders": [state | area for area in areas]}, {"cylinder": SECOND}])
     together = answer([{"cylinder": state | {"head_area_m2": 0.16, "crank_area_m2": 0.14}}, {"cylinder": SECOND}])
     for name in ("piston_force", "rod_loads", "torque", "main_bearings"):
         _same(getattr(apart, name).model_dump(), getattr(together, name).model_dump())
 
 
-def _same(one: Any, other: Any) -> None:
-    if isinstance(one, dict):
-        for name in one:
+def _same(first: Any, second: Any) -> None:
+    if isinstance(first, dict):
+        for name in first:
             if not name.endswith("_deg"):  # of equal peaks either angle is right
-                _same(one[name], other[name])
-    elif isinstance(one, list | tuple):
-        for each, theirs in zip(one, other, strict=True):
-            _same(each, theirs)
-    elif isinstance(one, float):
-        assert one == pytest.approx(other, rel=1e-9, abs=1e-5)
+                _same(first[name], second[name])
+    elif isinstance(first, list | tuple):
+        for value, theirs in zip(first, second, strict=True):
+            _same(value, theirs)
+    elif isinstance(first, float):
+        assert first == pytest.approx(second, rel=1e-9, abs=1e-5)
     else:
-        assert one == other
+        assert first == second
 
 
 def test_a_step_has_a_side_without_area_analytic() -> None:
     """Piston of 0.12 m2 against the head, a ring of 0.05 m2 against the crank: F = -p A + p' A'; no ambient side."""
-    found = gas(answer([{"cylinders": [HEAD, RING]}, {"cylinder": SECOND}]))
-    head, ring = found.chambers[0], found.chambers[3]
+    pressures = gas(answer([{"cylinders": [HEAD, RING]}, {"cylinder": SECOND}]))
+    head, ring = pressures.chambers[0], pressures.chambers[3]
     expected = -0.12 * np.array(head.pressure_Pa) + 0.05 * np.array(ring.pressure_Pa)
-    np.testing.assert_allclose(found.force_N, expected, rtol=1e-13)
-    assert [chamber.indicated_work_J == 0.0 for chamber in found.chambers] == [False, True, True, False]
+    np.testing.assert_allclose(pressures.force_N, expected, rtol=1e-13)
+    assert [chamber.indicated_work_J == 0.0 for chamber in pressures.chambers] == [False, True, True, False]
     # analytic: the closed forms of the work are the mean torque's, by energy
     torque = answer([{"cylinders": [HEAD, RING]}]).torque
     assert torque is not None
-    assert torque.mean_torque_Nm == pytest.approx(sum(one.indicated_work_J for one in found.chambers) / (2 * np.pi))
+    assert torque.mean_torque_Nm == pytest.approx(
+        sum(chamber.indicated_work_J for chamber in pressures.chambers) / (2 * np.pi)
+    )
 
 
 def test_an_indicated_pressure_in_tandem_analytic() -> None:
     table = {"angle_deg": [0, 90, 180, 270, 360], "pressure_Pa": [4e5, 2e5, 1e5, 2e5, 4e5]}
-    given = {"head_area_m2": 0.12, "crank_area_m2": 0.0, "pressure": {"head": table}}
-    both = gas(answer([{"cylinders": [SECOND, given]}]))
-    alone = gas(answer([{"cylinders": [given]}]))
-    other = gas(answer([{"cylinder": SECOND}]))
-    np.testing.assert_allclose(both.force_N, np.add(alone.force_N, other.force_N), rtol=1e-13)
+    fields = {"head_area_m2": 0.12, "crank_area_m2": 0.0, "pressure": {"head": table}}
+    both = gas(answer([{"cylinders": [SECOND, fields]}]))
+    alone = gas(answer([{"cylinders": [fields]}]))
+    pressures = gas(answer([{"cylinder": SECOND}]))
+    np.testing.assert_allclose(both.force_N, np.add(alone.force_N, pressures.force_N), rtol=1e-13)
     assert alone.force_N[0] == -0.12 * 4e5
     assert both.chambers[2].indicated_work_J == pytest.approx(alone.chambers[0].indicated_work_J)
 
@@ -127,7 +133,7 @@ def test_an_indicated_pressure_in_tandem_analytic() -> None:
 def test_bad_input_is_named(row: dict[str, Any], path: tuple[Any, ...]) -> None:
     with pytest.raises(ValidationError) as raised:
         ReciprocatingMachine.model_validate(machine([row]))
-    problems = [one for error in raised.value.errors() for one in error["ctx"]["problems"]]
+    problems = [problem for error in raised.value.errors() for problem in error["ctx"]["problems"]]
     assert any(problem.path[-len(path) :] == path for problem in problems)
 
 

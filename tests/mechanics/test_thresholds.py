@@ -39,8 +39,8 @@ def test_a_row_that_leans_by_a_hair_presses_on_its_guide(leaning: float, share: 
 
 @pytest.mark.parametrize(("nearer", "shares"), [(1e-10, [0.5, 0.5]), (1e-6, [1.0, 0.0])])
 def test_webs_between_two_throws_belong_to_both_but_for_a_hair(nearer: float, shares: list[float]) -> None:
-    found = balance_rate.web_shares(np.array([0.0, 1.0]), np.array([0.5 - nearer]))
-    assert found[:, 0].tolist() == shares
+    web_shares = balance_rate.web_shares(np.array([0.0, 1.0]), np.array([0.5 - nearer]))
+    assert web_shares[:, 0].tolist() == shares
 
 
 @pytest.mark.parametrize("influence", [bearings.simple_spans_influence, bearings.continuous_beam_influence])
@@ -48,19 +48,19 @@ def test_bearings_a_hair_apart_are_two(influence) -> None:  # type: ignore[no-un
     at = np.array([0.5])
     with pytest.raises(ValueError, match="place"):
         influence(np.array([0.0, 1e-10, 1.0]), at)
-    found = influence(np.array([0.0, 1e-6, 1.0]), at)
-    assert np.sum(found) == pytest.approx(1.0, rel=1e-9)
+    actual_influence = influence(np.array([0.0, 1e-6, 1.0]), at)
+    assert np.sum(actual_influence) == pytest.approx(1.0, rel=1e-9)
 
 
 @pytest.mark.parametrize(("apart", "count"), [(1e-14, 0), (1e-9, 1), (1e-4, 1)])
 def test_entries_of_a_table_a_hair_apart_are_two_breaks(apart: float, count: int) -> None:
     angle = np.array([[-1.0, 1.0, 1.0 + apart, 2.0 * np.pi - 1.0, 2.0 * np.pi + 1.0]])
     trace = Trace(0, 0, 1, angle, np.array([[1.0, 2.0, 3.0, 1.0, 2.0]]), np.zeros((), int), np.zeros(()))
-    found = break_angles(_ONE, (), (trace,))
-    near = found[np.abs(found - 1.0) < 0.1]
+    angles = break_angles(_ONE, (), (trace,))
+    near = angles[np.abs(angles - 1.0) < 0.1]
     assert near.size == 1 + count
     data = replace(row_data(_ONE, True, None, None), traces=(trace,))
-    half = whole_turn(data, found[None]).half
+    half = whole_turn(data, angles[None]).half
     # what is left of it is a piece of its own
     assert np.count_nonzero((half > 0.0) & (half < 1e-3)) == count
 
@@ -83,8 +83,8 @@ def test_openings_near_a_right_angle_are_told_by_masses() -> None:
     for angle in (1.2, 1.505, 1.52, 1.55, right - 1e-5, right):
         both = np.full(2, angle)
         mass = plates.mass(both)
-        found = plates.opened_by_mass(mass, plates.unbalance(both) / mass)
-        np.testing.assert_allclose(found, both, rtol=0, atol=2e-11 if angle > 1.5 else 1e-12)
+        opened_by_mass = plates.opened_by_mass(mass, plates.unbalance(both) / mass)
+        np.testing.assert_allclose(opened_by_mass, both, rtol=0, atol=2e-11 if angle > 1.5 else 1e-12)
         np.testing.assert_allclose(plates.opened_for(mass), both, rtol=0, atol=1e-14)
 
 
@@ -101,6 +101,6 @@ def test_what_is_no_more_than_rounding_leaves_is_no_load() -> None:
     wrench = Wrench(Phasors(size, 0.0 * size), Phasors(1.5 * size, 0.0 * size))
     for least, force, couple in ((1.9, 2.0, 3.0), (2.0, 0.0, 3.0), (3.0, 0.0, 0.0)):
         load = foundation_load(wrench, 1, np.asarray(1.0), np.asarray(30.0), (np.asarray(least), np.asarray(least)))
-        found = [float(each.amplitude) for each in load]
-        assert found == [force, force, couple, couple]
+        amplitudes = [float(oscillation.amplitude) for oscillation in load]
+        assert amplitudes == [force, force, couple, couple]
         assert float(load.force_x.phase_deg) == (330.0 if force else 0.0)

@@ -58,17 +58,17 @@ def test_phasors_independent(style: str, seed: int) -> None:
     arrays = layout(machine)
     force, couple = moment_of_position(machine, float(arrays.reference_plane))
     for order in (1, 2, 3, 4, 6):
-        found = reciprocating(arrays, order)
+        wrench = reciprocating(arrays, order)
         if order == 1:
-            found = found.plus(rotating(arrays))
+            wrench = wrench.plus(rotating(arrays))
         clockwise = machine.rotation == "cw"
-        _assert_same(found.force, phasors(force, order, clockwise), order**2 * force_scale(arrays))
-        _assert_same(found.moment, phasors(couple, order, clockwise), order**2 * moment_scale(arrays))
+        _assert_same(wrench.force, phasors(force, order, clockwise), order**2 * force_scale(arrays))
+        _assert_same(wrench.moment, phasors(couple, order, clockwise), order**2 * moment_scale(arrays))
 
 
-def _assert_same(found: Phasors, expected: Phasors, scale: float) -> None:
-    assert found.co == pytest.approx(complex(expected.co), abs=1e-13 * scale)
-    assert found.counter == pytest.approx(complex(expected.counter), abs=1e-13 * scale)
+def _assert_same(harmonics: Phasors, expected: Phasors, scale: float) -> None:
+    assert harmonics.co == pytest.approx(complex(expected.co), abs=1e-13 * scale)
+    assert harmonics.counter == pytest.approx(complex(expected.counter), abs=1e-13 * scale)
 
 
 @pytest.mark.parametrize("seed", range(4))
@@ -81,8 +81,8 @@ def test_force_at_every_angle_independent(seed: int) -> None:
     square = (machine.speed_rpm * np.pi / 30.0) ** 2
     expected = np.fft.ifft(np.fft.fft(position) * orders**2) * square
     angle = arrays.sense * THETA
-    found = rotating(arrays).force.at(angle) + sum(reciprocating(arrays, k).force.at(angle, k) for k in range(1, 41))
-    np.testing.assert_allclose(found * square, expected, atol=1e-8 * square * force_scale(arrays))
+    total = rotating(arrays).force.at(angle) + sum(reciprocating(arrays, k).force.at(angle, k) for k in range(1, 41))
+    np.testing.assert_allclose(total * square, expected, atol=1e-8 * square * force_scale(arrays))
 
 
 def test_counterweights_independent() -> None:
@@ -97,8 +97,8 @@ def test_counterweights_independent() -> None:
         for m, a, w in zip(mass, angle, machine.webs, strict=True)
     ]
     radius = np.array([w.counterweight_radius_m for w in machine.webs])
-    found: Wrench = counterweights(arrays, mass * radius * np.exp(1j * np.deg2rad(angle)))
+    wrench: Wrench = counterweights(arrays, mass * radius * np.exp(1j * np.deg2rad(angle)))
     plane = float(arrays.reference_plane)
     couple = sum(p * (w.position_m - plane) for p, w in zip(at, machine.webs, strict=True))
-    _assert_same(found.force, phasors(sum(at), 1, sense < 0), 100.0)
-    _assert_same(found.moment, phasors(couple, 1, sense < 0), 100.0)
+    _assert_same(wrench.force, phasors(sum(at), 1, sense < 0), 100.0)
+    _assert_same(wrench.moment, phasors(couple, 1, sense < 0), 100.0)

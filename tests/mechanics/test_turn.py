@@ -38,8 +38,8 @@ def test_panels_cover_the_turn_once(breaks: list[float]) -> None:
     assert np.all(np.diff(angle) >= 0.0)
     assert np.all((angle >= 0.0) & (angle <= TURN * (1 + 1e-15)))
     edges = np.append(turn.start, TURN)
-    for one in np.mod(np.array(breaks)[np.isfinite(breaks)], TURN):
-        assert np.min(np.abs(edges - one)) < 1e-12
+    for value in np.mod(np.array(breaks)[np.isfinite(breaks)], TURN):
+        assert np.min(np.abs(edges - value)) < 1e-12
     # analytic
     assert mean(turn, np.ones_like(angle)) == pytest.approx(1.0, rel=1e-14)
     assert fluctuation(turn, np.full_like(angle, 7e5)) == pytest.approx(0.0, abs=1e-8)
@@ -105,24 +105,24 @@ def test_where_the_turn_begins_is_of_no_account() -> None:
     def torque(x: Real) -> Real:
         return 5.0 + np.sin(x) + 2.0 * np.cos(3.0 * x) + np.where(np.mod(x, TURN) < 2.0, 1.0, 0.0)
 
-    found = []
+    values = []
     for shift in np.linspace(0.0, 6.0, 7):
         turn = panels(np.array([0.0, 2.0]) - shift, 0.02)
-        found.append(
+        values.append(
             (float(mean(turn, torque(turn.angle + shift))), float(fluctuation(turn, torque(turn.angle + shift))))
         )
-    np.testing.assert_allclose(found, [found[0]] * 7, rtol=2e-6)
+    np.testing.assert_allclose(values, [values[0]] * 7, rtol=2e-6)
 
 
 def test_how_finely_it_is_divided_is_of_no_account() -> None:
     def torque(x: Real) -> Real:
         return np.exp(np.sin(x)) * np.where(x < 2.0, 3.0, -1.0)
 
-    found = []
+    values = []
     for finest in (0.2, 0.05, 0.01):
         turn = panels(np.array([2.0]), finest)
-        found.append((float(mean(turn, torque(turn.angle))), float(fluctuation(turn, torque(turn.angle)))))
-    np.testing.assert_allclose(found, [found[-1]] * 3, rtol=1e-6)
+        values.append((float(mean(turn, torque(turn.angle))), float(fluctuation(turn, torque(turn.angle)))))
+    np.testing.assert_allclose(values, [values[-1]] * 3, rtol=1e-6)
 
 
 def test_scale_and_offset() -> None:

@@ -56,12 +56,12 @@ def test_series_have_the_values_of_the_samples(style: str, exact: bool) -> None:
     expected, moving = _forces(plan, data, angle, exact, friction)
     series = RowSeries(turn.rows, angle[None], None, angle[None], 0)
     for reading in READINGS:
-        value, wanted = forces(series, reading)[0, ..., 0], getattr(expected, reading)
-        assert value == pytest.approx(wanted, rel=1e-9, abs=1e-11 * np.max(np.abs(wanted))), reading
+        value, actual = forces(series, reading)[0, ..., 0], getattr(expected, reading)
+        assert value == pytest.approx(actual, rel=1e-9, abs=1e-11 * np.max(np.abs(actual))), reading
     _, loads = shaft_loads(expected.piston, moving, plan, angle)
     count = plan.reciprocating.mass.size
-    seen = forces(series, "on_shaft")[0, ..., 0] * plan.reciprocating.crank_direction[:, None]
-    assert seen == pytest.approx(
+    actual_forces = forces(series, "on_shaft")[0, ..., 0] * plan.reciprocating.crank_direction[:, None]
+    assert actual_forces == pytest.approx(
         loads[:count] * np.exp(-1j * plan.sense * angle), rel=1e-9, abs=1e-11 * np.max(np.abs(loads))
     )
 
@@ -97,13 +97,13 @@ def test_brute_force_never_beats_a_peak(seed: int, exact: bool, style: str) -> N
         values = getattr(expected, reading)
         pieces = _peaks_of_rows(turn, reading).pieces
         for sign in (1.0, -1.0):
-            found = pieces.peaks(np.zeros(len(pieces.half)), 1e-8, sign=sign)
+            bracket = pieces.peaks(np.zeros(len(pieces.half)), 1e-8, sign=sign)
             brute = np.max(sign * values, axis=-1)
             size = np.max(np.abs(values))
-            assert np.all(brute <= found.upper + 1e-9 * size), reading
+            assert np.all(brute <= bracket.upper + 1e-9 * size), reading
             # a parabola misses h^2/8 of its second derivative, here at most 1e4 times the size
-            assert np.all(found.lower <= brute + 4e-5 * size), reading
-            assert np.all(found.upper - found.lower <= 1e-8 * np.abs(found.lower) + 1e-11 * size), reading
+            assert np.all(bracket.lower <= brute + 4e-5 * size), reading
+            assert np.all(bracket.upper - bracket.lower <= 1e-8 * np.abs(bracket.lower) + 1e-11 * size), reading
 
 
 @pytest.mark.parametrize("style", STYLES)
@@ -134,8 +134,8 @@ def test_root_mean_squares_are_off_by_no_more_than_is_told(
     share = curves.pieces.half[..., None] * np.tile(weight / 8.0, 8) / TURN
     for constant in (0.0, 1e3 - 2e3j):
         exact = np.sqrt(np.sum(np.abs(value + constant) ** 2 * share, axis=(1, 2)))
-        found = np.sqrt(curves.variance + np.abs(curves.mean + constant) ** 2)
-        assert np.all(np.abs(found - exact) <= curves.rms_error + 1e-14 * curves.pieces.size)
+        root = np.sqrt(curves.variance + np.abs(curves.mean + constant) ** 2)
+        assert np.all(np.abs(root - exact) <= curves.rms_error + 1e-14 * curves.pieces.size)
     if most > 1:
         assert np.all(curves.rms_error <= 1e-9 * curves.pieces.size)
 
@@ -151,9 +151,9 @@ def _at(curves: TurnCurves, places: np.ndarray) -> np.ndarray:
 def test_values_in_pieces_are_those_at_their_angles(style: str) -> None:
     turn, _, _ = _driven(2, style, friction=1e3)
     curves, places = _peaks_of_rows(turn, "on_shaft"), np.array([-0.9, 0.0, 0.35])
-    wanted = _at(curves, places)
-    found = curves.in_pieces(places).reshape(wanted.shape)
-    assert np.all(np.abs(found - wanted) <= 1e-12 * np.max(curves.pieces.size))
+    values = _at(curves, places)
+    array = curves.in_pieces(places).reshape(values.shape)
+    assert np.all(np.abs(array - values) <= 1e-12 * np.max(curves.pieces.size))
 
 
 def test_what_is_left_out_everywhere_is_counted_once_for_each_of_both() -> None:
@@ -189,15 +189,15 @@ def test_designs_together_are_as_designs_alone(reading: Reading) -> None:
     # property: to the bit, whether what all designs have in common is worked out once or for each
     turn, _, _ = _driven(1, STYLES[0], friction=1e3)
     inertia = turn.rows.inertia * np.array([[1.0], [1.1], [0.7]])
-    cut = [np.repeat(each, 3, axis=0) for each in (turn.centre, turn.half)]
+    cut = [np.repeat(values, 3, axis=0) for values in (turn.centre, turn.half)]
     shared = replace(turn.rows, designs=3, inertia=inertia)
     apart = replace(shared, ahead=np.repeat(turn.rows.ahead, 3, axis=0))
-    alone = [WholeTurn(replace(turn.rows, inertia=one[None]), turn.centre, turn.half) for one in inertia]
-    expected = [_peaks(each, reading) for each in alone]
+    alone = [WholeTurn(replace(turn.rows, inertia=value[None]), turn.centre, turn.half) for value in inertia]
+    expected = [_peaks(single_turn, reading) for single_turn in alone]
     for rows in (shared, apart):
-        found = _peaks(WholeTurn(rows, *cut), reading)
-        for part, each in zip(found, zip(*expected, strict=True), strict=True):
-            assert np.array_equal(part, np.concatenate(each))
+        bracket = _peaks(WholeTurn(rows, *cut), reading)
+        for part, entry in zip(bracket, zip(*expected, strict=True), strict=True):
+            assert np.array_equal(part, np.concatenate(entry))
 
 
 def test_what_all_designs_have_alike_stands_once() -> None:
@@ -212,7 +212,7 @@ def test_a_design_taken_alone_keeps_its_curves() -> None:
     # property: to the bit, with the weights and constants of that design
     turn, _, _ = _driven(1, STYLES[0], friction=1e3)
     inertia = turn.rows.inertia * np.array([[1.0], [1.1], [0.7]])
-    cut = [np.repeat(each, 3, axis=0) for each in (turn.centre, turn.half)]
+    cut = [np.repeat(values, 3, axis=0) for values in (turn.centre, turn.half)]
     weights = np.random.default_rng(2).normal(size=(3, 2, turn.rows.crank_radius.shape[-1]))
     whole = WholeTurn(replace(turn.rows, designs=3, inertia=inertia), *cut)
     curves = whole.curves("rod", weights, 1e3 * weights[..., 0])
@@ -224,7 +224,7 @@ def test_a_design_taken_alone_keeps_its_curves() -> None:
 def _three_designs(reading: Reading) -> TurnCurves:
     """Two curves of each of three designs, the last of which has a piece without width more."""
     turn, _, _ = _driven(1, STYLES[0], friction=1e3)
-    centre, half = (np.repeat(each, 3, axis=0) for each in (turn.centre, turn.half))
+    centre, half = (np.repeat(values, 3, axis=0) for values in (turn.centre, turn.half))
     half[2, 4] = 0.0
     weights = np.random.default_rng(2).normal(size=(3, 2, turn.rows.crank_radius.shape[-1]))
     # beside so large a constant nothing is left out, and one part of a piece is enough
@@ -239,24 +239,24 @@ def test_mean_squares_of_designs_are_those_of_each_alone(reading: Reading) -> No
     nodes = curves._quadrature[2]
     assert len(set(nodes.tolist())) > 1
     for name in ("mean", "variance", "rms_error"):
-        found = getattr(curves, name).reshape(3, 2)
+        value = getattr(curves, name).reshape(3, 2)
         for number in range(3):
             alone = curves.of_designs(slice(number, number + 1))
-            np.testing.assert_array_equal(found[number], getattr(alone, name), err_msg=name)
+            np.testing.assert_array_equal(value[number], getattr(alone, name), err_msg=name)
             assert alone._quadrature[2] == nodes[number]
 
 
 def test_floors_of_designs_are_those_of_each_alone() -> None:
     # property: to the bit, of designs in which the same pieces have a width
     curves = _three_designs("on_shaft")
-    found = floors(curves, 1e-7, range(4), np.array([0, 1, 2, 2]))
+    actual_floors = floors(curves, 1e-7, range(4), np.array([0, 1, 2, 2]))
     for number, group in enumerate(([0, 1], [0, 0])):
         alone = floors(curves.of_designs(slice(number, number + 1)), 1e-7, None, np.array(group))
         some = slice(2 * number, 2 * number + 2)
-        np.testing.assert_array_equal(found.centre[some], alone.centre)
-        np.testing.assert_array_equal(found.radius[some], alone.radius)
-        np.testing.assert_array_equal(found.upper[some], alone.upper)
-    held = found.floor(0)
+        np.testing.assert_array_equal(actual_floors.centre[some], alone.centre)
+        np.testing.assert_array_equal(actual_floors.radius[some], alone.radius)
+        np.testing.assert_array_equal(actual_floors.upper[some], alone.upper)
+    held = actual_floors.floor(0)
     assert np.abs(held.value - held.circle.centre) == pytest.approx(held.circle.radius, rel=1e-12)
 
 
@@ -266,8 +266,8 @@ def test_every_design_has_its_own_means() -> None:
     count = turn.rows.crank_radius.shape[-1]
     means = np.arange(6.0 * count).reshape(2, 3, count)
     rows = replace(turn.rows, designs=6, inertia=np.repeat(turn.rows.inertia, 6, axis=0))
-    found = whole_turn(rows, np.zeros((2, 3, 1)), means).means
-    assert np.array_equal(found, means.reshape(6, count))
+    actual_means = whole_turn(rows, np.zeros((2, 3, 1)), means).means
+    assert np.array_equal(actual_means, means.reshape(6, count))
 
 
 def test_more_places_than_are_expanded_at_once_are_as_few() -> None:

@@ -132,9 +132,11 @@ def sample(room: Room, count: int, seed: int) -> list[tuple[Path, Mutant]]:
     files = texts(room)
     every = [(path, number) for path, text in files.items() for number in range(mutants.count(text))]
     random.Random(seed).shuffle(every)
-    found = ((path, mutants.mutant(files[path], number)) for path, number in every)
+    values = ((path, mutants.mutant(files[path], number)) for path, number in every)
     unequal = (
-        (file, one) for file, one in found if not {f"{file} {one.of}", f"{file} {one.of}: {one.fault}"} & EQUAL.keys()
+        (file, mutant)
+        for file, mutant in values
+        if not {f"{file} {mutant.of}", f"{file} {mutant.of}: {mutant.fault}"} & EQUAL.keys()
     )
     return list(islice(unequal, count))
 

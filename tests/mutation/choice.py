@@ -40,12 +40,12 @@ def places(mutant: Mutant, file: Path, texts: Mapping[Path, str]) -> Lines:
     """Lines of a fault; of one in a name of a module, those of a room that use it, or what is made of it."""
     if mutant.lines:
         return {str(file): mutant.lines}
-    names = _made_of(mutant.of, ast.parse(texts[file]))
+    names = _derivatives(mutant.of, ast.parse(texts[file]))
     used: dict[str, frozenset[int]] = {}
     for path, text in texts.items():
         tree = ast.parse(text)
         every = statements(tree)
-        lines = [statement(every, one.lineno)[0] for one in ast.walk(tree) if _name(one) in names]
+        lines = [statement(every, node.lineno)[0] for node in ast.walk(tree) if _name(node) in names]
         used[str(path)] = frozenset().union(*lines)
     return {name: lines for name, lines in used.items() if lines} or {str(file): frozenset()}
 
@@ -60,49 +60,49 @@ def chosen(trials: list[Trial], used: Lines, limit_s: float) -> list[str]:
     ----------
     limit_s : seconds that all of them take together, s; a single one may take longer.
     """
-    own = [one for one in trials if one.runs(used)]
-    files = {one.file for one in own} | {one.file for one in trials if _meet(one.shared, used)}
-    beside = [one for one in trials if one.file in files and not one.runs(used)]
+    own = [trial for trial in trials if trial.runs(used)]
+    files = {trial.file for trial in own} | {trial.file for trial in trials if _meet(trial.shared, used)}
+    beside = [trial for trial in trials if trial.file in files and not trial.runs(used)]
     if not any(used.values()):
-        beside = sorted(trials, key=lambda one: used.keys().isdisjoint(one.lines))
+        beside = sorted(trials, key=lambda trial: used.keys().isdisjoint(trial.lines))
     few: list[Trial] = []
     seconds = 0.0
-    for one in (*_in_turn(own), *(_in_turn(beside) if any(used.values()) else beside)):
-        seconds += one.seconds
+    for single_trial in (*_in_turn(own), *(_in_turn(beside) if any(used.values()) else beside)):
+        seconds += single_trial.seconds
         if few and (seconds > limit_s or len(few) == _CHOSEN):
             break
-        few.append(one)
-    return [one.name for one in _in_order(few)]
+        few.append(single_trial)
+    return [trial.name for trial in _in_order(few)]
 
 
 def _meet(lines: Lines, places: Lines) -> bool:
-    return any(not lines.get(name, frozenset()).isdisjoint(each) for name, each in places.items())
+    return any(not lines.get(name, frozenset()).isdisjoint(place) for name, place in places.items())
 
 
 def _in_turn(trials: list[Trial]) -> list[Trial]:
     """The shortest first, each the later the more of its file come before it."""
     before: dict[str, int] = defaultdict(int)
     late = []
-    for one in sorted(trials, key=lambda one: one.seconds):
-        before[one.file] += 1
-        late.append((one.seconds * before[one.file], one))
-    return [one for _, one in sorted(late, key=lambda pair: pair[0])]
+    for trial in sorted(trials, key=lambda single_trial: single_trial.seconds):
+        before[trial.file] += 1
+        late.append((trial.seconds * before[trial.file], trial))
+    return [late_trial for _, late_trial in sorted(late, key=lambda pair: pair[0])]
 
 
 def _in_order(trials: list[Trial]) -> list[Trial]:
     """Short ones first, file by file: what serves a file is computed twice at most."""
-    files = list(dict.fromkeys(one.file for one in trials))
-    return sorted(trials, key=lambda one: (one.seconds > _SHORT_S, files.index(one.file)))
+    files = list(dict.fromkeys(trial.file for trial in trials))
+    return sorted(trials, key=lambda trial: (trial.seconds > _SHORT_S, files.index(trial.file)))
 
 
-def _made_of(name: str, tree: ast.Module) -> set[str]:
+def _derivatives(name: str, tree: ast.Module) -> set[str]:
     """A name of a module, and others of it that are computed from it."""
     names, grown = {name}, True
     while grown:
         before = len(names)
-        for one in tree.body:
-            if isinstance(one, ast.Assign | ast.AnnAssign) and {_name(part) for part in ast.walk(one)} & names:
-                targets = one.targets if isinstance(one, ast.Assign) else [one.target]
+        for stmt in tree.body:
+            if isinstance(stmt, ast.Assign | ast.AnnAssign) and {_name(part) for part in ast.walk(stmt)} & names:
+                targets = stmt.targets if isinstance(stmt, ast.Assign) else [stmt.target]
                 names |= {part.id for target in targets for part in ast.walk(target) if isinstance(part, ast.Name)}
         grown = len(names) > before
     return names

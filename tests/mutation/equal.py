@@ -137,9 +137,9 @@ _VERIFY: dict[str, str] = {
 }
 
 
-def _with(places: tuple[str, ...], one: str, other: str, why: str) -> dict[str, str]:
+def _with(places: tuple[str, ...], first: str, second: str, why: str) -> dict[str, str]:
     """Faults by what they are in, each with the last of some signs another."""
-    return {f"{place} -> {other.join(_fault(place).rsplit(one, 1))}": why for place in places}
+    return {f"{place} -> {second.join(_fault(place).rsplit(first, 1))}": why for place in places}
 
 
 def _fault(place: str) -> str:
@@ -296,12 +296,12 @@ _SERVICE: dict[str, str] = {
 #: `file of: fault`, of the function or name that it stands in; without a fault all that stands there
 EQUAL = {
     f"{folder}/{where}": why
-    for folder, each in (
+    for folder, mechanics in (
         ("optimizer/mechanics", _MECHANICS),
         ("optimizer/program", _PROGRAM),
         ("optimizer/formulation", _FORMULATION),
         ("examples/client", _VERIFY),
         ("service", _SERVICE),
     )
-    for where, why in each.items()
+    for where, why in mechanics.items()
 }

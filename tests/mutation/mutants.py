@@ -28,7 +28,7 @@ _COMPARISONS: dict[type[ast.cmpop], type[ast.cmpop]] = {
 _LONGEST = 60
 #: names of functions and fields, each with the one that it is taken for
 _TAKEN_FOR = {
-    one: other
+    first: second
     for pair in (
         ("min", "max"),
         ("sin", "cos"),
@@ -42,7 +42,7 @@ _TAKEN_FOR = {
         ("mass_kg", "angle_deg"),
         ("velocity_m_s", "acceleration_m_s2"),
     )
-    for one, other in (pair, pair[::-1])
+    for first, second in (pair, pair[::-1])
 }
 
 
@@ -69,13 +69,13 @@ def names(source: str) -> set[str]:
     """What the mutants of a file are told by: of what they are, and ``of: fault``."""
     tree = ast.parse(source)
     every, every_statement = list(_faults(tree)), statements(tree)
-    found = set()
+    texts = set()
     for fault in every:
         _, of = statement(every_statement, getattr(fault.node, "lineno", 0))
         old = getattr(fault.node, fault.field)
-        found |= {of, f"{of}: {fault()}"}
+        texts |= {of, f"{of}: {fault()}"}
         setattr(fault.node, fault.field, old)
-    return found
+    return texts
 
 
 def mutant(source: str, number: int) -> Mutant:
@@ -89,20 +89,20 @@ def mutant(source: str, number: int) -> Mutant:
 
 def statements(tree: ast.Module) -> list[ast.stmt]:
     """All of a file, by where they begin."""
-    return sorted((one for one in ast.walk(tree) if isinstance(one, ast.stmt)), key=lambda one: one.lineno)
+    return sorted((node for node in ast.walk(tree) if isinstance(node, ast.stmt)), key=lambda node: node.lineno)
 
 
 def statement(every: list[ast.stmt], line: int) -> tuple[frozenset[int], str]:
     """Lines of the innermost statement around a line, of one with a body its head; and what it belongs to."""
-    around = [one for one in every if one.lineno <= line <= (one.end_lineno or 0)]
-    functions = [one.name for one in around if isinstance(one, ast.FunctionDef | ast.AsyncFunctionDef)]
+    around = [stmt for stmt in every if stmt.lineno <= line <= (stmt.end_lineno or 0)]
+    functions = [stmt.name for stmt in around if isinstance(stmt, ast.FunctionDef | ast.AsyncFunctionDef)]
     inner = around[-1]
     if not functions:
-        of = next((one.id for one in ast.walk(inner) if isinstance(one, ast.Name)), "")
+        of = next((node.id for node in ast.walk(inner) if isinstance(node, ast.Name)), "")
         return frozenset(), of
     body = getattr(inner, "body", None)
     end = body[0].lineno - 1 if body else inner.end_lineno or line
-    begin = min([inner.lineno, *(one.lineno for one in getattr(inner, "decorator_list", []))])
+    begin = min([inner.lineno, *(node.lineno for node in getattr(inner, "decorator_list", []))])
     return frozenset(range(begin, max(end, line) + 1)), functions[-1]
 
 
@@ -116,14 +116,14 @@ def _faults(tree: ast.Module) -> Iterator["_Fault"]:
         elif isinstance(node, ast.BoolOp):
             yield _Fault(node, "op", ast.Or() if isinstance(node.op, ast.And) else ast.And())
         elif isinstance(node, ast.UnaryOp) and isinstance(node.op, ast.USub):
-            said = _said(node, around) if isinstance(node.operand, ast.Constant) else node
-            yield _Fault(node, "op", ast.UAdd(), said)
+            actual_node = _context(node, around) if isinstance(node.operand, ast.Constant) else node
+            yield _Fault(node, "op", ast.UAdd(), actual_node)
         elif isinstance(node, ast.UnaryOp) and isinstance(node.op, ast.Not):
             yield _Fault(node, "operand", ast.UnaryOp(ast.Not(), node.operand))
         elif isinstance(node, ast.Name) and node.id in _TAKEN_FOR and isinstance(node.ctx, ast.Load):
             yield _Fault(node, "id", _TAKEN_FOR[node.id])
         elif isinstance(node, ast.Attribute) and node.attr in _TAKEN_FOR and isinstance(node.ctx, ast.Load):
-            yield _Fault(node, "attr", _TAKEN_FOR[node.attr], _said(node, around))
+            yield _Fault(node, "attr", _TAKEN_FOR[node.attr], _context(node, around))
         elif (
             isinstance(node, ast.Constant) and isinstance(node.value, int | float) and not isinstance(node.value, bool)
         ):
@@ -131,7 +131,7 @@ def _faults(tree: ast.Module) -> Iterator["_Fault"]:
                 continue
             value = node.value
             yield _Fault(
-                node, "value", value + 1 if isinstance(value, int) else 1.01 * value + 1e-3, _said(node, around)
+                node, "value", value + 1 if isinstance(value, int) else 1.01 * value + 1e-3, _context(node, around)
             )
 
 
@@ -141,21 +141,21 @@ class _Fault(NamedTuple):
     node: ast.AST
     field: str
     value: object
-    said: ast.AST | None = None
+    context: ast.AST | None = None
 
     def __call__(self) -> str:
-        said = self.said or self.node
-        before = ast.unparse(said)
+        node = self.context or self.node
+        before = ast.unparse(node)
         setattr(self.node, self.field, self.value)
-        return f"{before} -> {ast.unparse(ast.fix_missing_locations(said))}"
+        return f"{before} -> {ast.unparse(ast.fix_missing_locations(node))}"
 
 
-def _said(small: ast.AST, around: Mapping[ast.AST, ast.AST]) -> ast.AST:
+def _context(small: ast.AST, around: Mapping[ast.AST, ast.AST]) -> ast.AST:
     """What a number or a field stands in: many of one function are alike, of which one may change nothing."""
-    said, home = small, around[small]
+    node, home = small, around[small]
     while isinstance(home, ast.Tuple | ast.UnaryOp | ast.Slice | ast.keyword):
-        said, home = home, around[home]
-    home = home if isinstance(home, ast.expr) else said
+        node, home = home, around[home]
+    home = home if isinstance(home, ast.expr) else node
     return home if len(ast.unparse(home)) <= _LONGEST else small
 
 

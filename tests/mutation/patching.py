@@ -23,9 +23,9 @@ def functions(files: set[str], called: set[CodeType]) -> Functions:
     """Functions of some files that are alive."""
     alive: dict[_Place, list[FunctionType]] = {}
     gc.unfreeze()
-    for one in gc.get_objects():
-        if isinstance(one, FunctionType) and one.__code__.co_filename in files:
-            alive.setdefault(_place(one.__code__), []).append(one)
+    for single_object in gc.get_objects():
+        if isinstance(single_object, FunctionType) and single_object.__code__.co_filename in files:
+            alive.setdefault(_place(single_object.__code__), []).append(single_object)
     gc.collect()
     gc.freeze()
     return Functions(alive, frozenset(map(_place, called)))
@@ -38,22 +38,22 @@ def patched(functions: Functions, path: Path, original: str, text: str) -> bool:
     """
     # the text has been written anew: of a statement on several lines other code is made
     anew = ast.unparse(ast.parse(original))
-    before, same, after = (list(_codes(compile(each, str(path), "exec"))) for each in (original, anew, text))
-    if [one.co_qualname for one in before] != [one.co_qualname for one in after]:
+    before, same, after = (list(_codes(compile(text, str(path), "exec"))) for text in (original, anew, text))
+    if [code_type.co_qualname for code_type in before] != [code_type.co_qualname for code_type in after]:
         return False
     changed = [old for old, as_new, new in zip(before, same, after, strict=True) if _does(as_new) != _does(new)]
     if not changed or any(not old.co_flags & CO_OPTIMIZED or _place(old) in functions.called for old in changed):
         return False
     every = [
-        (one, new)
+        (function_type, new)
         for old, new in zip(before, after, strict=True)
-        for one in functions.alive.get(_place(old), [])
+        for function_type in functions.alive.get(_place(old), [])
         if old.co_flags & CO_OPTIMIZED
     ]
-    if any(one.__code__.co_freevars != new.co_freevars for one, new in every):
+    if any(function_type.__code__.co_freevars != new.co_freevars for function_type, new in every):
         return False
-    for one, new in every:
-        one.__code__ = new
+    for single_type, new in every:
+        single_type.__code__ = new
     return True
 
 
@@ -63,12 +63,12 @@ def _place(code: CodeType) -> _Place:
 
 def _codes(code: CodeType) -> Iterator[CodeType]:
     yield code
-    for one in code.co_consts:
-        if isinstance(one, CodeType):
-            yield from _codes(one)
+    for co_const in code.co_consts:
+        if isinstance(co_const, CodeType):
+            yield from _codes(co_const)
 
 
 def _does(code: CodeType) -> tuple[object, ...]:
     """What a code does, without what is defined inside, its lines and its texts."""
-    consts = [repr(one) for one in code.co_consts if not isinstance(one, CodeType | str)]
+    consts = [repr(co_const) for co_const in code.co_consts if not isinstance(co_const, CodeType | str)]
     return code.co_code, code.co_names, code.co_varnames, code.co_freevars, consts

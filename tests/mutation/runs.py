@@ -75,9 +75,9 @@ class Loaded:
         """Exit code of pytest with another text of a file; None where that has to be imported."""
         question = json.dumps([str(file), original, text, tests]).encode() + b"\n"
         os.write(self._ask, len(question).to_bytes(8, "big"))
-        sent = memoryview(question)
-        while sent:
-            sent = sent[os.write(self._ask, sent) :]
+        value = memoryview(question)
+        while value:
+            value = value[os.write(self._ask, value) :]
         word = self._lines.readline().decode().strip()
         return None if word == _NOT_LOADED else int(word)
 
@@ -104,21 +104,21 @@ def _serve(copy: Path, tests: list[str], pattern: str, asks: int, answer: int) -
         sys.setprofile(calls)
         _pytest(["--collect-only", *tests])
         sys.setprofile(None)
-        found = functions(files, used)
+        actual_functions = functions(files, used)
         with os.fdopen(asks, "rb") as questions:
             while length := questions.read(8):
                 file, original, text, names = json.loads(questions.read(int.from_bytes(length, "big")))
-                code = _forked(copy, found, copy / file, original, text, names)
+                code = _forked(copy, actual_functions, copy / file, original, text, names)
                 os.write(answer, f"{_NOT_LOADED if code is None else code}\n".encode())
     finally:
         os._exit(0)
 
 
-def _forked(copy: Path, found: Functions, path: Path, original: str, text: str, tests: list[str]) -> int | None:
+def _forked(copy: Path, value: Functions, path: Path, original: str, text: str, tests: list[str]) -> int | None:
     child = os.fork()
     if child == 0:
         _limited(_MUTANT_S)
-        os._exit(_pytest(["-x", *tests]) if patched(found, path, original, text) else 98)
+        os._exit(_pytest(["-x", *tests]) if patched(value, path, original, text) else 98)
     code = _ended(child)
     return None if code == 98 else code
 
@@ -153,8 +153,8 @@ def _enter(copy: Path, environment: dict[str, str]) -> None:
     os.environ.update(environment, PYTHONPATH=str(copy), PYTHONDONTWRITEBYTECODE="1", CHECKED_ANSWERS="every")
     os.chdir(copy)
     sys.dont_write_bytecode = True
-    sys.path[:] = [str(copy), *(one for one in sys.path if one not in ("", str(Path(__file__).parents[2])))]
-    for name in [one for one in sys.modules if one.partition(".")[0] in _OWN]:
+    sys.path[:] = [str(copy), *(text for text in sys.path if text not in ("", str(Path(__file__).parents[2])))]
+    for name in [module for module in sys.modules if module.partition(".")[0] in _OWN]:
         del sys.modules[name]
     nowhere = os.open(os.devnull, os.O_WRONLY)
     os.dup2(nowhere, 1)

@@ -31,10 +31,10 @@ def test_each_fault_once_and_none_in_what_is_not_computed() -> None:
 
 
 def test_a_mutant_differs_in_its_fault_alone() -> None:
-    found = [mutant(SOURCE, number) for number in range(count(SOURCE))]
-    assert len({one.text for one in found}) == len(found)
-    assert all(one.line in (2, 4) for one in found)
-    assert {one.lines for one in found} == {frozenset({2}), frozenset({4})}
+    mutants = [mutant(SOURCE, number) for number in range(count(SOURCE))]
+    assert len({element.text for element in mutants}) == len(mutants)
+    assert all(fault.line in (2, 4) for fault in mutants)
+    assert {fault.lines for fault in mutants} == {frozenset({2}), frozenset({4})}
     assert mutant("LIMIT = 3", 0).lines == frozenset()
 
 
@@ -62,9 +62,9 @@ def test_tests_that_run_a_line_are_chosen_the_shortest_first() -> None:
 def test_every_file_of_tests_has_its_turn() -> None:
     used = {"coded.py": _LINES}
     many = [Trial(f"a::{number}", 1.0 + 0.001 * number, used) for number in range(60)]
-    found = chosen([*many, Trial("b::longer", 6.0, used)], used, 45.0)
-    assert "b::longer" in found
-    assert found[:3] == ["a::0", "a::1", "a::2"]
+    choice = chosen([*many, Trial("b::longer", 6.0, used)], used, 45.0)
+    assert "b::longer" in choice
+    assert choice[:3] == ["a::0", "a::1", "a::2"]
 
 
 def test_others_of_a_file_may_look_at_what_the_first_has_computed() -> None:
@@ -98,11 +98,11 @@ def test_what_is_noticed(tmp_path: Path) -> None:
     assert (tmp_path / file).read_text().startswith("def limit():\n    return 3\n")
     notes = tmp_path / "notes" / "room.json"
     room = Room("coded.py", ("test_coded.py",), 0.9)
-    found = covering(tmp_path, room, notes)
-    assert found is not None
-    assert [(one.name, one.lines) for one in found] == [(test, {"coded.py": frozenset({1, 2})})]
+    trials = covering(tmp_path, room, notes)
+    assert trials is not None
+    assert [(trial.name, trial.lines) for trial in trials] == [(test, {"coded.py": frozenset({1, 2})})]
     noted = notes.read_text()
-    assert covering(tmp_path, room, notes) == found
+    assert covering(tmp_path, room, notes) == trials
     assert notes.read_text() == noted
     (tmp_path / file).write_text("def limit():\n    return 4\n")
     assert covering(tmp_path, room, notes) is None
@@ -117,10 +117,10 @@ def test_what_serves_a_file_is_noted_for_all_its_tests(tmp_path: Path) -> None:
         "@pytest.fixture(scope='module')\ndef three():\n    return limit()\n\n\n"
         "def test_first(three):\n    pass\n\n\ndef test_second(three):\n    assert three == 3\n"
     )
-    found = covering(tmp_path, Room("coded.py", ("test_coded.py",), 0.9), tmp_path / "notes" / "room.json")
-    assert found is not None
-    assert [one.lines for one in found] == [{"coded.py": frozenset({1, 2})}, {}]
-    assert {frozenset(one.shared["coded.py"]) for one in found} == {frozenset({1, 2, 5, 6})}
+    trials = covering(tmp_path, Room("coded.py", ("test_coded.py",), 0.9), tmp_path / "notes" / "room.json")
+    assert trials is not None
+    assert [trial.lines for trial in trials] == [{"coded.py": frozenset({1, 2})}, {}]
+    assert {frozenset(trial.shared["coded.py"]) for trial in trials} == {frozenset({1, 2, 5, 6})}
 
 
 _CODED = """START = 3
@@ -150,7 +150,7 @@ def test_a_fault_in_what_is_loaded_is_noticed_as_one_that_is_imported(tmp_path: 
     faults = {mutant(_CODED, number).fault: mutant(_CODED, number).text for number in range(count(_CODED))}
     with Loaded(tmp_path, ["test_coded.py"], "coded.py") as loaded:
         again = {fault: loaded.ran(file, _CODED, text, [test]) is None for fault, text in faults.items()}
-        assert [fault for fault, one in again.items() if one] == ["3 -> 4", "1 -> 2"]
+        assert [fault for fault, verdict in again.items() if verdict] == ["3 -> 4", "1 -> 2"]
         assert all(noticed(tmp_path, file, text, [test], loaded) for text in faults.values())
         assert not noticed(tmp_path, file, _CODED.replace("x > LIMIT + least", "LIMIT + least < x"), [test], loaded)
         assert noticed(tmp_path, file, _CODED.replace("return START", "return START + 1"), [test], loaded)
@@ -159,24 +159,24 @@ def test_a_fault_in_what_is_loaded_is_noticed_as_one_that_is_imported(tmp_path: 
 
 @pytest.mark.parametrize("file", sorted({key.partition(" ")[0] for key in EQUAL}))
 def test_what_changes_nothing_is_told_of_mutants_that_there_are(file: str) -> None:
-    told = {name for key in EQUAL for where, _, name in [key.partition(" ")] if where == file}
-    assert told <= names((ROOT / file).read_text())
+    labels = {name for key in EQUAL for where, _, name in [key.partition(" ")] if where == file}
+    assert labels <= names((ROOT / file).read_text())
 
 
 def test_numbers_of_one_function_are_told_apart() -> None:
     """What is said of one of them hides no other."""
-    found = names("def f(a):\n    return g(a, 0) + (a[0] if a > 0 else -0)\n")
-    assert {"f: g(a, 0) -> g(a, 1)", "f: a[0] -> a[1]", "f: a > 0 -> a > 1"} <= found
+    labels = names("def f(a):\n    return g(a, 0) + (a[0] if a > 0 else -0)\n")
+    assert {"f: g(a, 0) -> g(a, 1)", "f: a[0] -> a[1]", "f: a > 0 -> a > 1"} <= labels
 
 
 def test_fields_of_one_function_are_told_apart() -> None:
-    found = names("def f(a, b):\n    return np.maximum(np.max(a), np.max(b)) + a.lower[-1]\n")
-    assert {"f: np.max(a) -> np.min(a)", "f: np.max(b) -> np.min(b)"} <= found
-    assert {"f: a.lower[-1] -> a.upper[-1]", "f: a.lower[-1] -> a.lower[+1]"} <= found
+    labels = names("def f(a, b):\n    return np.maximum(np.max(a), np.max(b)) + a.lower[-1]\n")
+    assert {"f: np.max(a) -> np.min(a)", "f: np.max(b) -> np.min(b)"} <= labels
+    assert {"f: a.lower[-1] -> a.upper[-1]", "f: a.lower[-1] -> a.lower[+1]"} <= labels
 
 
 def test_the_length_that_numpy_finds_is_no_number() -> None:
     """Of any negative one it is the same; the sign counts."""
-    found = names("def f(a):\n    return a.reshape(-1), a.reshape(3, -1), a.sum(-1), a.reshape(1, a[-1])\n")
-    assert {"f: a.reshape(-1) -> a.reshape(+1)", "f: a.sum(-1) -> a.sum(-2)", "f: a[-1] -> a[-2]"} <= found
-    assert not any("-2)" in one for one in found if "reshape" in one)
+    labels = names("def f(a):\n    return a.reshape(-1), a.reshape(3, -1), a.sum(-1), a.reshape(1, a[-1])\n")
+    assert {"f: a.reshape(-1) -> a.reshape(+1)", "f: a.sum(-1) -> a.sum(-2)", "f: a[-1] -> a[-2]"} <= labels
+    assert not any("-2)" in label for label in labels if "reshape" in label)

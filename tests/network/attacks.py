@@ -64,15 +64,15 @@ async def run(target: Service, attack: Attack, most: int | None = None, every: i
             reply = await target.send(raw, timeout=2 * _PATIENCE_S)
             outcome.slowest_s = max(outcome.slowest_s, time.perf_counter() - begun)
             outcome.statuses[reply.status] += 1
-            found = wrong(attack, reply)
-            if found is not None:
-                shown = raw[:200] if isinstance(raw, bytes) else "..."
-                outcome.wrong.append(f"{found} to {shown!r}")
+            faults = wrong(attack, reply)
+            if faults is not None:
+                text = raw[:200] if isinstance(raw, bytes) else "..."
+                outcome.wrong.append(f"{faults} to {text!r}")
 
     async def watch() -> None:
         while True:
-            found = await asyncio.to_thread(target.memory_mb)
-            outcome.memory_mb = (max(outcome.memory_mb[0], found[0]), max(outcome.memory_mb[1], found[1]))
+            pair = await asyncio.to_thread(target.memory_mb)
+            outcome.memory_mb = (max(outcome.memory_mb[0], pair[0]), max(outcome.memory_mb[1], pair[1]))
             await asyncio.sleep(_MEMORY_S)
 
     watching = asyncio.create_task(watch())
@@ -90,13 +90,13 @@ async def by_chance(target: Service, count: int, seed: int) -> Outcome:
     async def client(number: int) -> None:
         random = Random(f"{seed} {number}")
         for _ in range(-(-count // (_AT_ONCE * _BATCH))):
-            for sent, reply, seconds in await chance.send(target, random, _BATCH):
+            for message, reply, seconds in await chance.send(target, random, _BATCH):
                 if reply.status >= 400:
                     outcome.slowest_s = max(outcome.slowest_s, seconds)
                 outcome.statuses[reply.status] += 1
-                found = wrong(_CHANCE, reply)
-                if found is not None:
-                    outcome.wrong.append(f"{found} to {sent.raw[:200]!r}")
+                faults = wrong(_CHANCE, reply)
+                if faults is not None:
+                    outcome.wrong.append(f"{faults} to {message.raw[:200]!r}")
 
     await asyncio.gather(*(client(number) for number in range(_AT_ONCE)))
     outcome.memory_mb = target.memory_mb()
@@ -109,7 +109,7 @@ def main() -> int:
     parser.add_argument("--count", type=int, default=200_000)
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--only", help="an attack, or those by chance")
-    given = parser.parse_args()
+    arguments = parser.parse_args()
     total, failures = 0, 0
     statuses: Counter[int] = Counter()
     # however slow the machine is: what takes too long is answered 503, and that is not what is looked for
@@ -118,10 +118,10 @@ def main() -> int:
         print(f"before: {before:.0f} MB and {worker:.0f} MB a worker")
         print(f"{'attack':<24}{'requests':>9}{'slowest s':>11}{'service MB':>12}{'worker MB':>11}  answers")
         for attack in (*ATTACKS, _CHANCE):
-            if given.only not in (None, attack.name):
+            if arguments.only not in (None, attack.name):
                 continue
             if attack is _CHANCE:
-                outcome = asyncio.run(by_chance(target, max(0, given.count - total), given.seed))
+                outcome = asyncio.run(by_chance(target, max(0, arguments.count - total), arguments.seed))
             else:
                 outcome = asyncio.run(run(target, attack))
             count = outcome.statuses.total()
@@ -131,8 +131,8 @@ def main() -> int:
                 f"{attack.name:<24}{count:>9}{outcome.slowest_s:>11.2f}{own:>12.0f}{worker:>11.0f}  {answers}",
                 flush=True,
             )
-            for found in outcome.wrong[:5]:
-                print(f"    {found}")
+            for text in outcome.wrong[:5]:
+                print(f"    {text}")
             over = own > CEILING_MB[0] or worker > CEILING_MB[1]
             failures += len(outcome.wrong) + over
             total += count

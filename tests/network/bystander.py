@@ -135,11 +135,11 @@ def book() -> bytes:
 Press = Callable[[Aim, int], Awaitable[None]]
 
 
-async def again(target: Aim, number: int, asked: bytes) -> None:
+async def again(target: Aim, number: int, content: bytes) -> None:
     """Asks for the same again and again, each time on a connection of its own."""
     while True:
         async with connected(target.port, target.address(number)) as (reader, writer):
-            writer.write(asked)
+            writer.write(content)
             with suppress(ConnectionError):
                 await writer.drain()
             await read(reader)
@@ -157,10 +157,10 @@ async def stalled_body(target: Aim, number: int) -> None:
 
 async def stopped_reader(target: Aim, number: int) -> None:
     """Asks for answers of megabytes, again and again on one connection, and reads nothing."""
-    asked = request("GET", "/openapi.json") if number % 4 else request("POST", "/v1/analyze", TORQUE)
+    body = request("GET", "/openapi.json") if number % 4 else request("POST", "/v1/analyze", TORQUE)
     async with connected(target.port, target.address(number)) as (reader, writer):
         reader._transport.pause_reading()  # type: ignore[attr-defined]
-        writer.write(asked.replace(b"Connection: close", b"Connection: keep-alive") * 5)
+        writer.write(body.replace(b"Connection: close", b"Connection: keep-alive") * 5)
         await asyncio.sleep(600)
 
 
@@ -262,13 +262,13 @@ async def beside(target: Service, press: Press, clients: int, seconds: float, ad
         await asyncio.sleep(min(2.0, seconds / 2))
         end = time.monotonic() + seconds
         while time.monotonic() < end or not outcome.statuses:
-            for asked in ORDINARY:
-                asked_at, before_s = time.perf_counter(), computed_s(target)
+            for content in ORDINARY:
+                time_s, before_s = time.perf_counter(), computed_s(target)
                 async with asyncio.timeout(600), connected(target.port, _BYSTANDER) as (reader, writer):
-                    writer.write(asked)
+                    writer.write(content)
                     outcome.statuses[(await read(reader)).status] += 1
                 outcome.work_s.append(computed_s(target) - before_s)
-                outcome.seconds.setdefault(asked.split(b" ", 2)[1].decode(), []).append(time.perf_counter() - asked_at)
+                outcome.seconds.setdefault(content.split(b" ", 2)[1].decode(), []).append(time.perf_counter() - time_s)
             await asyncio.sleep(0.05)
     finally:
         pressed.kill()
@@ -307,24 +307,26 @@ def main() -> int:
     parser.add_argument("--clients", type=int, default=1000)
     parser.add_argument("--seconds", type=float, default=60.0)
     parser.add_argument("--only", help="kinds of traffic whose name begins so, besides none")
-    given = parser.parse_args()
+    arguments = parser.parse_args()
     failures, quiet, quiet_work = 0, 0.0, 0.0
     presses: dict[str, tuple[Press, int, int]] = {
         "nobody": (silent, 0, 1),
-        **{name: (press, min(300, given.clients), 1) for name, press in PRESSES.items()},
-        "a mix of all": (mixed, given.clients, 1),
-        "a mix of four": (mixed, given.clients, 4),
-        "a mix of six": (mixed, given.clients, 6),
+        **{name: (press, min(300, arguments.clients), 1) for name, press in PRESSES.items()},
+        "a mix of all": (mixed, arguments.clients, 1),
+        "a mix of four": (mixed, arguments.clients, 4),
+        "a mix of six": (mixed, arguments.clients, 6),
         **{f"{name}, {n}": (press, n, n) for name, press in COSTLY.items() for n in (1, 4, 6)},
     }
-    if given.only is not None:
-        presses = {name: one for name, one in presses.items() if name == "nobody" or name.startswith(given.only)}
+    if arguments.only is not None:
+        presses = {
+            name: entry for name, entry in presses.items() if name == "nobody" or name.startswith(arguments.only)
+        }
     with service(fresh=True, log_level="warning", rate_limit="") as target:
         target.sweep = asyncio.run(start_sweep(target))  # type: ignore[attr-defined]
         print(f"at rest: {held_mb(target):.0f} MB")
         for name, (press, clients, addresses) in presses.items():
-            outcome = asyncio.run(beside(target, press, clients, given.seconds, addresses))
-            together = [each for times in outcome.seconds.values() for each in times]
+            outcome = asyncio.run(beside(target, press, clients, arguments.seconds, addresses))
+            together = [single_time for times in outcome.seconds.values() for single_time in times]
             p50, p99 = (quantile_ms(together, share) for share in (0.5, 0.99))
             work = quantile_ms(outcome.work_s, 0.99)
             quiet, quiet_work = quiet or p99, quiet_work or work
@@ -334,8 +336,8 @@ def main() -> int:
                 f"{work / quiet_work:5.1f} of quiet  above rest: {outcome.held_mb:5.0f} MB",
                 flush=True,
             )
-            each = (f"{path} {quantile_ms(times, 0.99):.0f}" for path, times in outcome.seconds.items())
-            print(f"    p99 [ms]: {', '.join(each)}", flush=True)
+            texts = (f"{path} {quantile_ms(times, 0.99):.0f}" for path, times in outcome.seconds.items())
+            print(f"    p99 [ms]: {', '.join(texts)}", flush=True)
             failures += outcome.refused + (outcome.held_mb > CEILING_MB)
         faults = target.faults()
         asyncio.run(target.ask("DELETE", target.sweep))  # type: ignore[attr-defined]

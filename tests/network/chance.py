@@ -18,7 +18,8 @@ from tests.network.serving import Reply, Service, read
 from tests.workbook.bombs import BOMBS
 
 _PATHS = (
-    *(one.path for one in COMPUTATIONS.values()), "/v1/match", "/v1/verify", "/v1/report", "/v1/optimize", "/v1/sweeps",
+    *(computation.path for computation in COMPUTATIONS.values()),
+    "/v1/match", "/v1/verify", "/v1/report", "/v1/optimize", "/v1/sweeps",
     "/v1/sweeps/" + "0" * 32, "/v1/sweeps/x/results", "/v1/sweeps/x/events",
     "/v1/sweeps/x/resume", "/v1/examples", "/v1/examples/w60", "/v1/effects", "/v1/version", "/healthz", "/readyz",
     "/metrics", "/portal/x/main.js", "/docs/assets/favicon.png", "/", "/nothing", "*", "//", "/v1/../healthz",
@@ -61,7 +62,7 @@ _WORKBOOKS, _BROKEN = 0.15, 0.3
 
 
 @dataclass(frozen=True)
-class Sent:
+class Burst:
     """Bytes, the number of answers that they may have, and whether the client sends nothing more after them."""
 
     raw: bytes
@@ -69,7 +70,7 @@ class Sent:
     ends: bool = False
 
 
-def requests(random: Random) -> Iterator[Sent]:
+def requests(random: Random) -> Iterator[Burst]:
     """Hostile requests without end."""
     texts = [json.dumps(body) for body in bodies().values()]
     books, bombs = _books(), _bombs()
@@ -77,16 +78,16 @@ def requests(random: Random) -> Iterator[Sent]:
         shape = random.random()
         if random.random() < _WORKBOOKS:
             content = random.choice(bombs) if shape < 0.2 else _workbook(random, random.choice(books))
-            yield Sent(_posted(random.choice(_READERS), content))
+            yield Burst(_posted(random.choice(_READERS), content))
             continue
-        one = _request(random, texts)
+        request = _request(random, texts)
         if shape < 0.05:
-            yield Sent(one[: random.randrange(1, len(one))], ends=True)
+            yield Burst(request[: random.randrange(1, len(request))], ends=True)
         elif shape < 0.1:
             count = random.randrange(2, 6)
-            yield Sent(b"".join([one, *(_request(random, texts) for _ in range(count - 1))]), count)
+            yield Burst(b"".join([request, *(_request(random, texts) for _ in range(count - 1))]), count)
         else:
-            yield Sent(one)
+            yield Burst(request)
 
 
 @cache
@@ -155,31 +156,31 @@ def _chunked(random: Random, body: bytes) -> bytes:
     return (size.encode("latin-1") + b"\r\n" + body + b"\r\n" if body else b"") + last.encode()
 
 
-async def send(target: Service, random: Random, count: int) -> list[tuple[Sent, Reply, float]]:
+async def send(target: Service, random: Random, count: int) -> list[tuple[Burst, Reply, float]]:
     """Send so many by chance, one after the other, on a connection that is kept as long as the service keeps it.
 
     Returns
     -------
     what was sent, the answer, and how long that took [s].
     """
-    found: list[tuple[Sent, Reply, float]] = []
+    values: list[tuple[Burst, Reply, float]] = []
     pending = requests(random)
-    while len(found) < count:
+    while len(values) < count:
         async with target.connection() as (reader, writer):
-            kept = True
-            while kept and len(found) < count:
-                sent, begun = next(pending), time.perf_counter()
+            verdict = True
+            while verdict and len(values) < count:
+                message, begun = next(pending), time.perf_counter()
                 with suppress(OSError):
-                    writer.write(sent.raw)
-                    if sent.ends:
+                    writer.write(message.raw)
+                    if message.ends:
                         writer.write_eof()
-                for _ in range(sent.answers):
+                for _ in range(message.answers):
                     async with asyncio.timeout(1800):
                         reply = await read(reader)
                         while reply.status == 100:
                             reply = await read(reader)
-                    found.append((sent, reply, time.perf_counter() - begun))
-                    kept = reply.status > 0 and reply.headers.get("connection") != "close" and not sent.ends
-                    if not kept:
+                    values.append((message, reply, time.perf_counter() - begun))
+                    verdict = reply.status > 0 and reply.headers.get("connection") != "close" and not message.ends
+                    if not verdict:
                         break
-    return found
+    return values

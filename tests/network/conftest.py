@@ -11,12 +11,12 @@ from tests.network.serving import Service, service
 
 @pytest.fixture(scope="session")
 def target() -> Iterator[Service]:
-    with service() as made:
-        yield made
+    with service() as server:
+        yield server
 
 
 @pytest.fixture
 def pool() -> Iterator[Pool]:
-    made = pool_of(2, 2)
-    yield made
-    made.close()
+    actual_pool = pool_of(2, 2)
+    yield actual_pool
+    actual_pool.close()

@@ -157,9 +157,9 @@ def _announced() -> Iterator[Raw]:
 
 def _pointers() -> Iterator[Raw]:
     base = MACHINES["w60"]
-    for given in _POINTERS:
+    for pointer in _POINTERS:
         for values in ([1, 2], [None], ["\ud800"], [{}], [], [1] * 40_000):
-            body = {"base": base, "axes": [{"path": given, "values": values}], "design": "grid", "dry_run": True}
+            body = {"base": base, "axes": [{"path": pointer, "values": values}], "design": "grid", "dry_run": True}
             yield request("POST", "/v1/sweeps", json.dumps(body).encode())
 
 
@@ -204,9 +204,9 @@ def _hosts() -> Iterator[Raw]:
         "x" * 5000,
         "\xff",
     )
-    asked = (("GET", "/v1/sweeps"), ("DELETE", "/v1/sweeps/x"), ("POST", "/v1/optimize"), ("GET", "/"))
+    entry = (("GET", "/v1/sweeps"), ("DELETE", "/v1/sweeps/x"), ("POST", "/v1/optimize"), ("GET", "/"))
     for name in names:
-        for method, path in asked:
+        for method, path in entry:
             yield request(method, path, headers={"Host": name})
 
 

@@ -75,8 +75,8 @@ async def load(target: Service, clients: int, seconds: float) -> Times:
 async def start_sweep(target: Service) -> str:
     """A sweep that takes longer than any test; its path."""
     path = "/machine/throws/0/rows/0/reciprocating_mass_kg"
-    other = "/machine/throws/1/rows/0/reciprocating_mass_kg"
-    axes = [{"path": each, "start": 100, "stop": 300, "count": 3000} for each in (path, other)]
+    text = "/machine/throws/1/rows/0/reciprocating_mass_kg"
+    axes = [{"path": text, "start": 100, "stop": 300, "count": 3000} for text in (path, text)]
     body = json.dumps({"base": MACHINES["2d12"], "axes": axes, "design": "grid"}).encode()
     reply = await target.ask("POST", "/v1/sweeps", body)
     assert reply.status == 202, reply.body
@@ -88,13 +88,13 @@ async def killed(target: Service) -> float:
 
     A worker that dies is replaced and its work is done once more, so that no client is told.
     """
-    asked = [asyncio.create_task(target.ask("POST", "/v1/optimize", MIX[0][2])) for _ in range(8)]
+    tasks = [asyncio.create_task(target.ask("POST", "/v1/optimize", MIX[0][2])) for _ in range(8)]
     await asyncio.sleep(0.005)
     begun = time.perf_counter()
     for worker in target.workers():
         with suppress(psutil.NoSuchProcess):
             worker.kill()
-    replies = [*await asyncio.gather(*asked), await target.ask("POST", "/v1/optimize", MIX[0][2])]
+    replies = [*await asyncio.gather(*tasks), await target.ask("POST", "/v1/optimize", MIX[0][2])]
     statuses = [reply.status for reply in replies]
     assert set(statuses) == {200}, statuses
     return time.perf_counter() - begun
@@ -114,14 +114,16 @@ def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--clients", type=int, default=64)
     parser.add_argument("--seconds", type=float, default=120.0)
-    given = parser.parse_args()
+    arguments = parser.parse_args()
     with service(fresh=True, log_level="warning") as target:
-        errors = _show("alone", asyncio.run(load(target, given.clients, given.seconds)), given.seconds)
+        errors = _show("alone", asyncio.run(load(target, arguments.clients, arguments.seconds)), arguments.seconds)
         sweep = asyncio.run(start_sweep(target))
-        errors += _show("with a sweep", asyncio.run(load(target, given.clients, given.seconds)), given.seconds)
-        done = json.loads(asyncio.run(target.ask("GET", sweep)).body)["done"]
+        errors += _show(
+            "with a sweep", asyncio.run(load(target, arguments.clients, arguments.seconds)), arguments.seconds
+        )
+        value = json.loads(asyncio.run(target.ask("GET", sweep)).body)["done"]
         asyncio.run(target.ask("DELETE", sweep))
-        print(f"    {done} designs of the sweep meanwhile")
+        print(f"    {value} designs of the sweep meanwhile")
         times = [asyncio.run(killed(target)) for _ in range(10)]
         print(f"workers killed 10 times: answered again within {1000 * max(times):.0f} ms")
         own, worker = target.memory_mb()

@@ -17,23 +17,23 @@ def pool_of(size: int, places: int) -> Pool:
     return Pool(shares(settings), timeout_s=180, memory_mb=2000)
 
 
-def run(pool: Pool, *asked: object) -> list[Outcome | Exception]:
+def run(pool: Pool, *arguments: object) -> list[Outcome | Exception]:
     """The outcomes of tasks that are given at once."""
-    found: list[Outcome | Exception] = [AssertionError()] * len(asked)
+    assertion_errors: list[Outcome | Exception] = [AssertionError()] * len(arguments)
 
-    async def one(index: int) -> None:
+    async def task(index: int) -> None:
         try:
-            found[index] = await pool.run(asked[index], "one")  # type: ignore[arg-type]
+            assertion_errors[index] = await pool.run(arguments[index], "one")  # type: ignore[arg-type]
         except Exception as error:
-            found[index] = error
+            assertion_errors[index] = error
 
     async def everything() -> None:
         async with anyio.create_task_group() as group:
-            for index in range(len(asked)):
-                group.start_soon(one, index)
+            for index in range(len(arguments)):
+                group.start_soon(task, index)
 
     anyio.run(everything)
-    return found
+    return assertion_errors
 
 
 def close(pool: Pool) -> None:

@@ -47,11 +47,11 @@ def run(url: str, phases: Sequence[str], examples: int, *more: str) -> tuple[int
             *("--max-examples", str(examples), "--continue-on-failure", "--no-shrink", "--warnings", "off"),
             *("--suppress-health-check", "all", "--generation-database", "none", "--request-timeout", "600", *more),
         ]
-        found = subprocess.run([command, *arguments], cwd=folder, capture_output=True, text=True, check=False)
-    lines = [line[:_LONGEST_LINE] for line in (found.stdout + found.stderr).splitlines()]
+        process = subprocess.run([command, *arguments], cwd=folder, capture_output=True, text=True, check=False)
+    lines = [line[:_LONGEST_LINE] for line in (process.stdout + process.stderr).splitlines()]
     text = "\n".join(lines)
-    made = _GENERATED.search(text)
-    return found.returncode, int(made[1]) if made else 0, text
+    match = _GENERATED.search(text)
+    return process.returncode, int(match[1]) if match else 0, text
 
 
 def main() -> int:
@@ -63,11 +63,11 @@ def main() -> int:
     chosen = parser.parse_args()
     paths = [f"--include-path={path}" for path in chosen.path]
     with service(log_level="warning") as target:
-        code, made, text = run(target.url, chosen.phases, chosen.examples, *paths)
+        code, count, text = run(target.url, chosen.phases, chosen.examples, *paths)
         faults = target.faults()
     print(text)
-    print(f"{made} requests, {len(faults)} faults logged", *(line[-_LONGEST_LINE:] for line in faults), sep="\n")
-    return 1 if code or faults or not made else 0
+    print(f"{count} requests, {len(faults)} faults logged", *(line[-_LONGEST_LINE:] for line in faults), sep="\n")
+    return 1 if code or faults or not count else 0
 
 
 if __name__ == "__main__":

@@ -62,9 +62,9 @@ class Service:
 
     async def computing(self, count: int) -> None:
         """Until so many answers are being computed."""
-        said = f"counterweight_computations_running {count:.1f}\n".encode()
+        text = f"counterweight_computations_running {count:.1f}\n".encode()
         async with asyncio.timeout(180):
-            while said not in (await self.ask("GET", "/metrics")).body:
+            while text not in (await self.ask("GET", "/metrics")).body:
                 await asyncio.sleep(0.02)
 
     async def ask(
@@ -96,10 +96,10 @@ class Service:
 
 def request(method: str, path: str, body: bytes = b"", headers: Mapping[str, str] | None = None) -> bytes:
     """A request as it goes over the wire; the connection is closed after it unless the headers say otherwise."""
-    given = {"Host": "localhost", "Connection": "close", "Content-Type": "application/json", **(headers or {})}
-    if body and "Transfer-Encoding" not in given:
-        given.setdefault("Content-Length", str(len(body)))
-    lines = "".join(f"{name}: {value}\r\n" for name, value in given.items())
+    actual_headers = {"Host": "localhost", "Connection": "close", "Content-Type": "application/json", **(headers or {})}
+    if body and "Transfer-Encoding" not in actual_headers:
+        actual_headers.setdefault("Content-Length", str(len(body)))
+    lines = "".join(f"{name}: {value}\r\n" for name, value in actual_headers.items())
     return f"{method} {path} HTTP/1.1\r\n{lines}\r\n".encode("utf-8", "surrogateescape") + body
 
 
@@ -142,17 +142,17 @@ def service(fresh: bool = False, **settings: str | int) -> Iterator[Service]:
     fresh : started from nothing, see :class:`tests.commands.Command`.
     """
     with tempfile.TemporaryDirectory(prefix="counterweight-") as folder, open(f"{folder}/log", "w") as log:
-        given = {"DATA_DIR": f"{folder}/data", **{name.upper(): str(value) for name, value in settings.items()}}
-        environment = {**os.environ, **{f"COUNTERWEIGHT_{name}": value for name, value in given.items()}}
+        fields = {"DATA_DIR": f"{folder}/data", **{name.upper(): str(value) for name, value in settings.items()}}
+        environment = {**os.environ, **{f"COUNTERWEIGHT_{name}": value for name, value in fields.items()}}
         command = ("service", "serve", "--port", "0")
         process = Command(*command, environment=environment, fresh=fresh, stdout=subprocess.PIPE, stderr=log, text=True)
         try:
             assert process.stdout is not None
-            found = re.search(r"http://\S+:(\d+) ", process.stdout.readline())
-            assert found is not None, Path(log.name).read_text()
-            made = Service(process, int(found[1]), log)
-            _wait(made)
-            yield made
+            match = re.search(r"http://\S+:(\d+) ", process.stdout.readline())
+            assert match is not None, Path(log.name).read_text()
+            server = Service(process, int(match[1]), log)
+            _wait(server)
+            yield server
         finally:
             process.terminate()
             try:
@@ -164,8 +164,8 @@ def service(fresh: bool = False, **settings: str | int) -> Iterator[Service]:
                     process.stdout.close()
 
 
-def _wait(made: Service) -> None:
+def _wait(server: Service) -> None:
     deadline = time.monotonic() + 300
-    while asyncio.run(made.ask("GET", "/readyz")).status != 200:
-        assert time.monotonic() < deadline, made.log()
+    while asyncio.run(server.ask("GET", "/readyz")).status != 200:
+        assert time.monotonic() < deadline, server.log()
         time.sleep(0.02)

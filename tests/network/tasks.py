@@ -27,7 +27,7 @@ def quick(_: OptimizeRequest) -> Problem:
 
 def niceness(_: OptimizeRequest) -> Problem:
     """How nice the thread that computes it is, and the process that it belongs to."""
-    own, process = (os.getpriority(os.PRIO_PROCESS, each) for each in (0, os.getpid()))
+    own, process = (os.getpriority(os.PRIO_PROCESS, count) for count in (0, os.getpid()))
     time.sleep(0.2)
     return Problem(**{**_DONE.model_dump(), "title": f"{own} {process}"})
 
@@ -67,8 +67,8 @@ def hungry(_: OptimizeRequest) -> Problem:
     return Problem(**{**_DONE.model_dump(), "title": "x" * len(bytearray(3_000_000_000))})
 
 
-def faulty(asked: OptimizeRequest) -> Problem:
-    raise RuntimeError(f"secret {asked.machine.name}")
+def faulty(request: OptimizeRequest) -> Problem:
+    raise RuntimeError(f"secret {request.machine.name}")
 
 
 def deadly(_: OptimizeRequest) -> Problem:
@@ -76,10 +76,10 @@ def deadly(_: OptimizeRequest) -> Problem:
     return _DONE
 
 
-def deadly_once(asked: OptimizeRequest) -> Problem:
+def deadly_once(request: OptimizeRequest) -> Problem:
     """Dies once; the file that its machine is named after tells the second time from the first."""
-    if not Path(asked.machine.name).exists():
-        Path(asked.machine.name).touch()
+    if not Path(request.machine.name).exists():
+        Path(request.machine.name).touch()
         os.kill(os.getpid(), signal.SIGKILL)
     return _DONE
 

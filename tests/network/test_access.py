@@ -37,19 +37,19 @@ NOBODYS = ("0" * 32, "f" * 32, "x", "..%2f")
 
 
 @pytest.fixture(scope="module")
-def made(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, dict[str, str]]:
+def keyring(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, dict[str, str]]:
     """The file of the keys, and the keys by name."""
-    found = {name: keys.make(owner, scopes, **more) for name, (owner, scopes, more) in KEYS.items()}
+    fields = {name: keys.make(owner, scopes, **more) for name, (owner, scopes, more) in KEYS.items()}
     file = tmp_path_factory.mktemp("keys") / "keys"
-    keys.write(file, [record for _, record in found.values()])
-    return file, {name: key for name, (key, _) in found.items()}
+    keys.write(file, [record for _, record in fields.values()])
+    return file, {name: key for name, (key, _) in fields.items()}
 
 
 @pytest.fixture(scope="module")
-def client(made: tuple[Path, dict[str, str]], tmp_path_factory: pytest.TempPathFactory) -> Iterator[TestClient]:
+def client(keyring: tuple[Path, dict[str, str]], tmp_path_factory: pytest.TempPathFactory) -> Iterator[TestClient]:
     settings = Settings(
         host="0.0.0.0",
-        keys_file=made[0],
+        keys_file=keyring[0],
         data_dir=tmp_path_factory.mktemp("data"),
         refusal_limit="2000/minute",
         cors_origins=("https://portal.example",),
@@ -60,10 +60,10 @@ def client(made: tuple[Path, dict[str, str]], tmp_path_factory: pytest.TempPathF
 
 
 @pytest.fixture
-def ask(client: TestClient, made: tuple[Path, dict[str, str]]) -> Any:
-    def send(name: str | None, method: str, path: str, **given: Any) -> Any:
-        headers = {} if name is None else {"Authorization": f"Bearer {made[1].get(name, name)}"}
-        return client.request(method, path, headers={**headers, **given.pop("headers", {})}, **given)
+def ask(client: TestClient, keyring: tuple[Path, dict[str, str]]) -> Any:
+    def send(name: str | None, method: str, path: str, **options: Any) -> Any:
+        headers = {} if name is None else {"Authorization": f"Bearer {keyring[1].get(name, name)}"}
+        return client.request(method, path, headers={**headers, **options.pop("headers", {})}, **options)
 
     return send
 
@@ -81,12 +81,12 @@ PLACES = ["", "/results", "/events", "/metadata"]
 
 @pytest.mark.parametrize("name", [None, "nonsense", "cw_0123456789ab_" + "x" * 43, "expired", "ü", ""])
 def test_without_a_right_key_everything_looks_the_same(
-    ask: Any, made: tuple[Path, dict[str, str]], job: str, name: str | None
+    ask: Any, keyring: tuple[Path, dict[str, str]], job: str, name: str | None
 ) -> None:
     # the key itself where there is one of this name: one that has expired is as wrong as any other
-    key = None if name is None else made[1].get(name, name).encode()
+    key = None if name is None else keyring[1].get(name, name).encode()
 
-    def told(path: str, method: str = "GET") -> tuple[Any, ...]:
+    def reply_to(path: str, method: str = "GET") -> tuple[Any, ...]:
         answer = ask(None, method, path, headers={} if key is None else {"X-API-Key": key})
         body = answer.json()
         assert body.pop("instance") in (path, path.replace("%2f", "/"))
@@ -94,35 +94,35 @@ def test_without_a_right_key_everything_looks_the_same(
         return answer.status_code, body, headers
 
     for place in PLACES:
-        real = told(job + place)
+        real = reply_to(job + place)
         assert real[0] == 401
-        assert all(told(f"/v1/sweeps/{other}{place}") == real for other in NOBODYS)
-        assert told("/nothing") == real
-    assert told(job, "DELETE") == told(f"/v1/sweeps/{NOBODYS[0]}", "DELETE")
+        assert all(reply_to(f"/v1/sweeps/{text}{place}") == real for text in NOBODYS)
+        assert reply_to("/nothing") == real
+    assert reply_to(job, "DELETE") == reply_to(f"/v1/sweeps/{NOBODYS[0]}", "DELETE")
     assert ask("alice", "GET", job).status_code == 200
 
 
-def test_a_key_is_right_until_it_expires(monkeypatch: pytest.MonkeyPatch, made: tuple[Path, dict[str, str]]) -> None:
-    known, key = keys.Keys(made[0]), made[1]["expired"]
+def test_a_key_is_right_until_it_expires(monkeypatch: pytest.MonkeyPatch, keyring: tuple[Path, dict[str, str]]) -> None:
+    value, key = keys.Keys(keyring[0]), keyring[1]["expired"]
     monkeypatch.setattr("service.guard.keys.time.time", lambda: 0.5)
-    caller = known.caller(key)
+    caller = value.caller(key)
     assert caller is not None
     assert caller.owner == "alice"
     monkeypatch.setattr("service.guard.keys.time.time", lambda: 1.5)
-    assert known.caller(key) is None
+    assert value.caller(key) is None
 
 
 @pytest.mark.parametrize("name", ["bob", "reader"])
 def test_the_job_of_another_is_as_unknown_as_one_that_is_none(ask: Any, job: str, name: str) -> None:
-    def told(path: str) -> tuple[Any, ...]:
+    def reply_to(path: str) -> tuple[Any, ...]:
         answer = ask(name, "GET", path)
         return answer.status_code, {**answer.json(), "instance": ""}
 
     for place in PLACES:
-        assert told(job + place) == told(f"/v1/sweeps/{NOBODYS[0]}{place}")
-        assert told(job + place)[0] == 404
+        assert reply_to(job + place) == reply_to(f"/v1/sweeps/{NOBODYS[0]}{place}")
+        assert reply_to(job + place)[0] == 404
     identity = job.rpartition("/")[2]
-    assert told(f"/v1/sweeps?before={identity}") == told(f"/v1/sweeps?before={NOBODYS[0]}")
+    assert reply_to(f"/v1/sweeps?before={identity}") == reply_to(f"/v1/sweeps?before={NOBODYS[0]}")
     assert ask(name, "GET", "/v1/sweeps").json()["sweeps"] == []
     assert ask("bob", "DELETE", job).status_code == 404
     assert ask("bob", "POST", f"{job}/resume").status_code == 404
@@ -138,9 +138,11 @@ def test_jobs_belong_to_the_owner_of_the_key_and_admins_see_all(ask: Any, job: s
 
 
 def test_the_same_idempotency_key_of_two_owners_is_two_jobs(ask: Any) -> None:
-    given = {"json": SWEEP, "headers": {"Idempotency-Key": "same"}}
-    one, again, other = (ask(name, "POST", "/v1/sweeps", **given).json()["id"] for name in ("alice", "alice", "bob"))
-    assert one == again != other
+    options = {"json": SWEEP, "headers": {"Idempotency-Key": "same"}}
+    first_id, again, second_id = (
+        ask(name, "POST", "/v1/sweeps", **options).json()["id"] for name in ("alice", "alice", "bob")
+    )
+    assert first_id == again != second_id
 
 
 @pytest.mark.parametrize(
@@ -171,13 +173,13 @@ def test_scopes(ask: Any, name: str | None, method: str, path: str, status: int)
     assert ask(name, method, path, **more).status_code == status
 
 
-@pytest.mark.parametrize("one", COMPUTATIONS.values(), ids=lambda one: one.name)
-def test_every_computing_route_asks_for_its_scope(ask: Any, one: Computation) -> None:
+@pytest.mark.parametrize("computation", COMPUTATIONS.values(), ids=lambda subject: subject.name)
+def test_every_computing_route_asks_for_its_scope(ask: Any, computation: Computation) -> None:
     for name in ("reader", "meter"):
-        refused = ask(name, "POST", one.path, json={})
+        refused = ask(name, "POST", computation.path, json={})
         assert refused.status_code == 403
-        assert refused.json()["detail"] == f"This needs a key with the scope {one.scope}."
-    assert ask("alice", "POST", one.path, json={}).status_code == 422
+        assert refused.json()["detail"] == f"This needs a key with the scope {computation.scope}."
+    assert ask("alice", "POST", computation.path, json={}).status_code == 422
 
 
 def test_a_key_has_a_rate_of_its_own(ask: Any) -> None:
@@ -191,31 +193,31 @@ def test_a_key_has_a_rate_of_its_own(ask: Any) -> None:
     assert ask("alice", "GET", "/v1/examples").status_code == 200
 
 
-def test_an_answer_says_what_is_left_of_the_rate(made: tuple[Path, dict[str, str]]) -> None:
-    with TestClient(create_app(Settings(keys_file=made[0], rate_limit="5/minute"), warm=False)) as client:
-        told = [client.get("/v1/nothing", headers={"X-API-Key": made[1]["alice"]}) for _ in range(3)]
-        assert [one.status_code for one in told] == [404] * 3
-        assert {one.headers["ratelimit-policy"] for one in told} == {'"key";q=5;w=60'}
-        found = [re.fullmatch(r'"key";r=(\d+);t=(\d+)', one.headers["ratelimit"]) for one in told]
-        assert [one[1] for one in found if one] == ["4", "3", "2"]
-        assert all(0 < int(one[2]) <= 60 for one in found if one)
+def test_an_answer_says_what_is_left_of_the_rate(keyring: tuple[Path, dict[str, str]]) -> None:
+    with TestClient(create_app(Settings(keys_file=keyring[0], rate_limit="5/minute"), warm=False)) as client:
+        responses = [client.get("/v1/nothing", headers={"X-API-Key": keyring[1]["alice"]}) for _ in range(3)]
+        assert [response.status_code for response in responses] == [404] * 3
+        assert {response.headers["ratelimit-policy"] for response in responses} == {'"key";q=5;w=60'}
+        matches = [re.fullmatch(r'"key";r=(\d+);t=(\d+)', response.headers["ratelimit"]) for response in responses]
+        assert [match[1] for match in matches if match] == ["4", "3", "2"]
+        assert all(0 < int(match[2]) <= 60 for match in matches if match)
         # another key has as much of its own
-        other = client.get("/v1/nothing", headers={"X-API-Key": made[1]["bob"]})
-        assert other.headers["ratelimit"].startswith('"key";r=4;')
+        reply = client.get("/v1/nothing", headers={"X-API-Key": keyring[1]["bob"]})
+        assert reply.headers["ratelimit"].startswith('"key";r=4;')
         # nobody has a rate on a page for everybody, nor without a limit
         assert "ratelimit" not in client.get("/healthz").headers
         assert "ratelimit" not in client.get("/v1/nothing").headers
-    with TestClient(create_app(Settings(keys_file=made[0], rate_limit=""), warm=False)) as client:
-        assert "ratelimit" not in client.get("/v1/nothing", headers={"X-API-Key": made[1]["alice"]}).headers
+    with TestClient(create_app(Settings(keys_file=keyring[0], rate_limit=""), warm=False)) as client:
+        assert "ratelimit" not in client.get("/v1/nothing", headers={"X-API-Key": keyring[1]["alice"]}).headers
 
 
-def test_those_who_guess_are_slowed_down(made: tuple[Path, dict[str, str]]) -> None:
-    app = create_app(Settings(keys_file=made[0], refusal_limit="3/hour"), warm=False)
+def test_those_who_guess_are_slowed_down(keyring: tuple[Path, dict[str, str]]) -> None:
+    app = create_app(Settings(keys_file=keyring[0], refusal_limit="3/hour"), warm=False)
     with TestClient(app) as client:
         statuses = [client.get("/v1/examples", headers={"X-API-Key": "x"}).status_code for _ in range(5)]
         assert statuses == [401] * 3 + [429] * 2
         # who has a key is not locked out by a neighbour who guesses
-        assert client.get("/v1/examples", headers={"X-API-Key": made[1]["alice"]}).status_code == 200
+        assert client.get("/v1/examples", headers={"X-API-Key": keyring[1]["alice"]}).status_code == 200
 
 
 async def _guess(target: Service, forwarded: str) -> int:
@@ -223,14 +225,14 @@ async def _guess(target: Service, forwarded: str) -> int:
     return (await target.ask("GET", "/v1/examples", headers=headers)).status
 
 
-def test_nobody_avoids_that_by_saying_that_he_is_another_one(made: tuple[Path, dict[str, str]]) -> None:
-    with service(keys_file=str(made[0]), refusal_limit="3/hour") as target:
+def test_nobody_avoids_that_by_saying_that_he_is_another_one(keyring: tuple[Path, dict[str, str]]) -> None:
+    with service(keys_file=str(keyring[0]), refusal_limit="3/hour") as target:
         statuses = [asyncio.run(_guess(target, f"10.0.0.{k}")) for k in range(5)]
     assert statuses == [401] * 3 + [429] * 2
 
 
-def test_a_proxy_is_believed_if_it_is_named(made: tuple[Path, dict[str, str]]) -> None:
-    with service(keys_file=str(made[0]), refusal_limit="1/hour", trusted_proxies="127.0.0.0/8") as target:
+def test_a_proxy_is_believed_if_it_is_named(keyring: tuple[Path, dict[str, str]]) -> None:
+    with service(keys_file=str(keyring[0]), refusal_limit="1/hour", trusted_proxies="127.0.0.0/8") as target:
         addresses = ("10.0.0.1", "10.0.0.2", "10.0.0.1", "2001:db8::1", "2001:db8::2", "2001:db8:0:1::1")
         statuses = [asyncio.run(_guess(target, address)) for address in addresses]
     # a network of IPv6 is one client
@@ -239,9 +241,9 @@ def test_a_proxy_is_believed_if_it_is_named(made: tuple[Path, dict[str, str]]) -
 
 def test_a_stream_ends_when_its_key_is_revoked(tmp_path: Path) -> None:
     key, record = keys.make("alice", ("sweeps",))
-    other = keys.make("bob", ("read",))[1]
+    key_record = keys.make("bob", ("read",))[1]
     file = tmp_path / "keys"
-    keys.write(file, [record, other])
+    keys.write(file, [record, key_record])
 
     async def watch(target: Service) -> bytes:
         sweep = {**SWEEP, "base": bodies()["2d12"], "axes": [LONG], "design": "grid"}
@@ -250,33 +252,33 @@ def test_a_stream_ends_when_its_key_is_revoked(tmp_path: Path) -> None:
         async with target.connection() as (reader, writer):
             writer.write(request("GET", f"{job}/events", headers=headers))
             await reader.readuntil(b"event: progress")
-            keys.write(file, [other])
+            keys.write(file, [key_record])
             return await asyncio.wait_for(reader.read(), 180)
 
     with service(keys_file=str(file), sweep_workers=1) as target:
-        said = asyncio.run(watch(target))
-    assert said.endswith(b"0\r\n\r\n")
-    assert b"event: end" not in said
+        actual_watch = asyncio.run(watch(target))
+    assert actual_watch.endswith(b"0\r\n\r\n")
+    assert b"event: end" not in actual_watch
 
 
-def test_no_key_is_in_the_file_and_nobody_else_can_read_it(made: tuple[Path, dict[str, str]]) -> None:
-    text = made[0].read_text()
-    assert not any(key in text or key.split("_", 2)[2] in text for key in made[1].values())
-    assert made[0].stat().st_mode & 0o777 == 0o600
+def test_no_key_is_in_the_file_and_nobody_else_can_read_it(keyring: tuple[Path, dict[str, str]]) -> None:
+    text = keyring[0].read_text()
+    assert not any(key in text or key.split("_", 2)[2] in text for key in keyring[1].values())
+    assert keyring[0].stat().st_mode & 0o777 == 0o600
 
 
-def test_a_wrong_key_takes_as_long_as_a_right_one(made: tuple[Path, dict[str, str]]) -> None:
-    known = keys.Keys(made[0])
+def test_a_wrong_key_takes_as_long_as_a_right_one(keyring: tuple[Path, dict[str, str]]) -> None:
+    value = keys.Keys(keyring[0])
 
     def seconds(key: str) -> float:
         begun = time.perf_counter()
-        known.caller(key)
+        value.caller(key)
         return time.perf_counter() - begun
 
-    right = made[1]["alice"]
-    asked = (right, right[:-1] + "~", right[:-4] + "AAAA", "cw_0123456789ab_" + "x" * 43)
+    right = keyring[1]["alice"]
+    texts = (right, right[:-1] + "~", right[:-4] + "AAAA", "cw_0123456789ab_" + "x" * 43)
     # the best of each, in turns: what else the machine does slows all of them
-    best = [min(times) for times in zip(*([seconds(key) for key in asked] for _ in range(500)), strict=True)]
+    best = [min(times) for times in zip(*([seconds(key) for key in texts] for _ in range(500)), strict=True)]
     assert max(best) < 3 * min(best)
 
 
@@ -284,11 +286,11 @@ def test_a_wrong_key_takes_as_long_as_a_right_one(made: tuple[Path, dict[str, st
 
 
 def test_only_pages_of_the_listed_origins_may_ask(client: TestClient) -> None:
-    asked = {"Access-Control-Request-Method": "POST", "Access-Control-Request-Headers": "authorization,content-type"}
-    allowed = client.options("/v1/optimize", headers={"Origin": "https://portal.example", **asked})
+    fields = {"Access-Control-Request-Method": "POST", "Access-Control-Request-Headers": "authorization,content-type"}
+    allowed = client.options("/v1/optimize", headers={"Origin": "https://portal.example", **fields})
     assert allowed.status_code == 200
     assert allowed.headers["access-control-allow-origin"] == "https://portal.example"
-    refused = client.options("/v1/optimize", headers={"Origin": "https://evil.example", **asked})
+    refused = client.options("/v1/optimize", headers={"Origin": "https://evil.example", **fields})
     assert "access-control-allow-origin" not in refused.headers
     assert (refused.status_code, refused.headers["content-type"]) == (400, "application/problem+json")
     assert refused.json()["detail"] == "Disallowed CORS origin."
@@ -316,12 +318,12 @@ def test_https_is_insisted_on_where_it_is_used(client: TestClient) -> None:
     assert answer.headers["strict-transport-security"] == "max-age=600; includeSubDomains"
 
 
-def test_a_prefix_changes_nothing_about_who_may_what(made: tuple[Path, dict[str, str]], tmp_path: Path) -> None:
-    app = create_app(Settings(keys_file=made[0], data_dir=tmp_path), warm=False)
+def test_a_prefix_changes_nothing_about_who_may_what(keyring: tuple[Path, dict[str, str]], tmp_path: Path) -> None:
+    app = create_app(Settings(keys_file=keyring[0], data_dir=tmp_path), warm=False)
     with TestClient(app, root_path="/cw") as client:
         for prefix in ("", "/cw"):
             assert client.get(f"{prefix}/healthz").status_code == 200
             assert client.get(f"{prefix}/v1/examples").status_code == 401
-            assert client.get(f"{prefix}/metrics", headers={"X-API-Key": made[1]["alice"]}).status_code == 403
+            assert client.get(f"{prefix}/metrics", headers={"X-API-Key": keyring[1]["alice"]}).status_code == 403
             assert client.get(f"{prefix}/healthz/../v1/examples").status_code == 401
         assert client.get("/cwhealthz").status_code == 401

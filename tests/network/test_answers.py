@@ -78,12 +78,12 @@ def test_an_early_answer_is_not_taken_from_who_still_sends(target: Service, codi
         for _ in range(20):
             asking.sendall(piece)
             assert not any(event & select.POLLERR for _, event in selectable.poll(10))
-        said = b""
-        while found := asking.recv(65_536):
-            said += found
-    assert said.startswith(b"HTTP/1.1 413 ")
-    assert said.count(b"\r\n\r\n") == 1
-    assert json.loads(said.partition(b"\r\n\r\n")[2])["status"] == 413
+        text = b""
+        while content := asking.recv(65_536):
+            text += content
+    assert text.startswith(b"HTTP/1.1 413 ")
+    assert text.count(b"\r\n\r\n") == 1
+    assert json.loads(text.partition(b"\r\n\r\n")[2])["status"] == 413
 
 
 def test_a_client_that_has_gone_leaves_no_fault_behind() -> None:
@@ -91,16 +91,16 @@ def test_a_client_that_has_gone_leaves_no_fault_behind() -> None:
 
     async def close() -> bool:
         loop = asyncio.get_running_loop()
-        made: asyncio.Future[asyncio.Transport] = loop.create_future()
+        future: asyncio.Future[asyncio.Transport] = loop.create_future()
 
         class Peer(asyncio.Protocol):
             def connection_made(self, transport: asyncio.BaseTransport) -> None:
-                made.set_result(cast(asyncio.Transport, transport))
+                future.set_result(cast(asyncio.Transport, transport))
 
         listening = listen(SETTINGS)
         async with await loop.create_server(Peer, sock=listening):
             client = socket.create_connection(listening.getsockname()[:2])
-            transport = await made
+            transport = await future
             joined = CoalescingTransport(transport, loop, lambda: True, 60.0)
             # nothing looks at the socket in between, so that only the closing itself can see it
             transport.pause_reading()

@@ -22,10 +22,10 @@ def pressed() -> Iterator[Service]:
     with service(
         max_connections=120, max_connections_each=100, event_streams_each=20, queue_length=16, queue_length_each=8,
         held_mb=16, held_mb_each=8, sweep_workers=1, rate_limit="", log_level="warning",
-    ) as made:  # fmt: skip
-        made.sweep = asyncio.run(start_sweep(made))  # type: ignore[attr-defined]
-        yield made
-        asyncio.run(made.ask("DELETE", made.sweep))  # type: ignore[attr-defined]
+    ) as server:  # fmt: skip
+        server.sweep = asyncio.run(start_sweep(server))  # type: ignore[attr-defined]
+        yield server
+        asyncio.run(server.ask("DELETE", server.sweep))  # type: ignore[attr-defined]
 
 
 @pytest.mark.parametrize(

@@ -30,11 +30,11 @@ class Ring(Keys):
 
 def admitted(keys: Ring | None, after: Callable[[Scope], None], **headers: str) -> bool:
     """Whether a request is still admitted after something has happened while it was answered."""
-    found: list[bool] = []
+    values: list[bool] = []
 
     async def application(scope: Scope, receive: Receive, send: Send) -> None:
         after(scope)
-        found.append(scope["state"]["still_admitted"]())
+        values.append(scope["state"]["still_admitted"]())
 
     def refused(error: Exception, path: str) -> Any:
         raise error
@@ -44,10 +44,10 @@ def admitted(keys: Ring | None, after: Callable[[Scope], None], **headers: str) 
 
     limits = RateLimits(Settings(rate_limit="", refusal_limit=""))
     access = Access(application, keys, Hosts(["*"]), limits, {}, refused)
-    given = [(name.replace("_", "-").lower().encode(), value.encode()) for name, value in headers.items()]
-    scope = {"type": "http", "path": "/v1/jobs", "headers": given, "client": ("127.0.0.1", 9), "state": {}}
+    entries = [(name.replace("_", "-").lower().encode(), value.encode()) for name, value in headers.items()]
+    scope = {"type": "http", "path": "/v1/jobs", "headers": entries, "client": ("127.0.0.1", 9), "state": {}}
     asyncio.run(access(scope, nothing, nothing))  # type: ignore[arg-type]
-    return found[0]
+    return values[0]
 
 
 @pytest.mark.parametrize("header", [{"X_API_Key": "one"}, {"Authorization": "Bearer one"}])

@@ -19,8 +19,8 @@ LONGEST_S = 2
 @pytest.fixture(scope="module")
 def hasty() -> Iterator[Service]:
     """It waits a second for headers: a test that a busy machine has stand still may be late itself."""
-    with service(headers_timeout_s=1) as made:
-        yield made
+    with service(headers_timeout_s=1) as server:
+        yield server
 
 
 @pytest.fixture(scope="module")
@@ -28,8 +28,8 @@ def strict() -> Iterator[Service]:
     """It is patient with headers, so that whoever asks for something else is not late however busy the machine is."""
     with service(
         headers_timeout_s=120, body_timeout_s=1, write_timeout_s=LONGEST_S, max_connections=20, log_level="info"
-    ) as made:
-        yield made
+    ) as server:
+        yield server
 
 
 async def healthy(target: Service) -> None:
@@ -76,8 +76,8 @@ def test_a_body_that_comes_too_slowly_is_answered_408(strict: Service) -> None:
             while not answer.done():
                 writer.write(b" ")
                 await asyncio.sleep(0.1)
-            found = await answer
-            return found.status, json.loads(found.body)["title"]
+            reply = await answer
+            return reply.status, json.loads(reply.body)["title"]
 
     assert asyncio.run(drip()) == (408, "Body too slow")
 
@@ -106,8 +106,8 @@ def test_a_client_that_reads_nothing_is_let_go(strict: Service) -> None:
         async with strict.connection() as (reader, writer):
             reader._transport.pause_reading()  # type: ignore[attr-defined]
             # more than the buffers of both kernels hold
-            wanted = request("GET", "/openapi.json", headers={"Connection": "keep-alive"})
-            writer.write(wanted * 200)
+            body = request("GET", "/openapi.json", headers={"Connection": "keep-alive"})
+            writer.write(body * 200)
             await asyncio.sleep(2 * LONGEST_S)
             await healthy(strict)
 
@@ -142,9 +142,9 @@ def test_a_client_that_reads_slowly_is_not_let_go(strict: Service) -> None:
             return content
 
     deadline = time.monotonic() + 180
-    while (found := asyncio.run(reads_slowly())) is None:
+    while (actual_reads_slowly := asyncio.run(reads_slowly())) is None:
         assert time.monotonic() < deadline
-    head, _, content = found.partition(b"\r\n\r\n")
+    head, _, content = actual_reads_slowly.partition(b"\r\n\r\n")
     assert head.startswith(b"HTTP/1.1 200 ")
     whole = asyncio.run(strict.ask("GET", "/openapi.json")).body
     assert whole.startswith(content)
@@ -153,11 +153,11 @@ def test_a_client_that_reads_slowly_is_not_let_go(strict: Service) -> None:
     assert f"content-length: {len(whole)}".encode() in head
 
 
-async def too_many(target: Service, others: int, expected: int) -> None:
+async def too_many(target: Service, count: int, expected: int) -> None:
     """As many connections as that come to an answer as expected, if not at once: those that are closed are let go
     later."""
     deadline = time.monotonic() + 180
-    while (reply := await beside(target, others)).status != expected:
+    while (reply := await beside(target, count)).status != expected:
         assert time.monotonic() < deadline, reply
     if expected == 503:
         assert reply.headers["retry-after"] == "1"
@@ -165,8 +165,8 @@ async def too_many(target: Service, others: int, expected: int) -> None:
         assert reply.headers["content-type"] == "application/problem+json"
 
 
-async def beside(target: Service, others: int) -> Reply:
-    held = [await asyncio.open_connection("127.0.0.1", target.port) for _ in range(others)]
+async def beside(target: Service, count: int) -> Reply:
+    held = [await asyncio.open_connection("127.0.0.1", target.port) for _ in range(count)]
     try:
         # whoever asks for health is answered, however many there are
         await healthy(target)
@@ -186,7 +186,7 @@ def test_the_work_of_a_client_that_goes_away_ends(strict: Service) -> None:
     body = json.dumps({"machine": json.loads(load("2d12"))["machine"], "repeats": 20}).encode()
 
     # the second one is no plain request
-    asked = (
+    pair = (
         request("POST", "/v1/accuracy", body),
         request("POST", "/v1/accuracy", b"%x\r\n%b\r\n0\r\n\r\n" % (len(body), body), {"Transfer-Encoding": "chunked"}),
     )
@@ -198,9 +198,9 @@ def test_the_work_of_a_client_that_goes_away_ends(strict: Service) -> None:
             await strict.computing(1)
         await strict.computing(0)
 
-    for question in asked:
+    for question in pair:
         asyncio.run(leave(question))
     deadline = time.monotonic() + 180
-    while strict.log().count('accuracy 499"') < len(asked):
+    while strict.log().count('accuracy 499"') < len(pair):
         assert time.monotonic() < deadline
         time.sleep(0.02)

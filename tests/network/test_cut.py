@@ -29,8 +29,8 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
 @pytest.fixture(scope="module")
 def target(folder: Path) -> Iterator[Service]:
     # what is not read yet of the answers that were cut counts for their client until they have ended
-    with service(data_dir=folder, held_mb=1000, held_mb_each=500, row_streams=500, row_streams_each=500) as made:
-        yield made
+    with service(data_dir=folder, held_mb=1000, held_mb_each=500, row_streams=500, row_streams_each=500) as server:
+        yield server
 
 
 @pytest.fixture(scope="module")
@@ -39,20 +39,20 @@ def sweep(target: Service) -> str:
     axes = [{"path": "/machine/speed_rpm", "start": 300, "stop": 900, "count": _ROWS}]
     body = json.dumps({"base": json.loads(load("w60")), "axes": axes}).encode()
 
-    async def done() -> str:
+    async def finish() -> str:
         path = (await target.ask("POST", "/v1/sweeps", body)).headers["location"]
         async with asyncio.timeout(300):
             while json.loads((await target.ask("GET", path)).body)["state"] != "done":
                 await asyncio.sleep(0.1)
         return path
 
-    return asyncio.run(done())
+    return asyncio.run(finish())
 
 
-def cut(target: Service, asked: bytes, least: int) -> int:
+def cut(target: Service, content: bytes, least: int) -> int:
     """Read so many bytes of an answer at least, then go away; how many were read."""
     with socket.create_connection(("127.0.0.1", target.port), timeout=180) as asking:
-        asking.sendall(asked)
+        asking.sendall(content)
         size = 0
         while size < least and (piece := asking.recv(65_536)):
             size += len(piece)
@@ -70,30 +70,34 @@ def lines(target: Service, begun: int, requests: int, of: str = "") -> list[dict
     is JSON."""
     deadline = time.monotonic() + 180
     while True:
-        said = target.log()[begun:]
-        found = [json.loads(line) for line in said[: said.rfind("\n") + 1].splitlines()]
-        ids = [line["request_id"] for line in found if line["logger"] == "service.requests"]
+        log = target.log()[begun:]
+        documents = [json.loads(line) for line in log[: log.rfind("\n") + 1].splitlines()]
+        ids = [line["request_id"] for line in documents if line["logger"] == "service.requests"]
         if sum(name.startswith(of) for name in ids) >= requests:
-            return found
-        assert time.monotonic() < deadline, said
+            return documents
+        assert time.monotonic() < deadline, log
         time.sleep(0.05)
 
 
 def test_clients_that_go_away_in_the_middle(target: Service, sweep: str) -> None:
-    asked = [request("GET", f"{sweep}/results?format={name}") for name in _FORMATS]
-    asked += [request("POST", "/v1/analyze", TORQUE), request("GET", "/openapi.json"), request("GET", "/v1/examples")]
+    requests = [request("GET", f"{sweep}/results?format={name}") for name in _FORMATS]
+    requests += [
+        request("POST", "/v1/analyze", TORQUE),
+        request("GET", "/openapi.json"),
+        request("GET", "/v1/examples"),
+    ]
     # what is unusual about a request has it read in another way
-    asked += [one.replace(b"Host:", b"X-Unusual: \xe9\r\nHost:") for one in asked]
+    requests += [body.replace(b"Host:", b"X-Unusual: \xe9\r\nHost:") for body in requests]
     begun, names = end_of_log(target), list[str]()
-    for one in asked:
+    for query in requests:
         for least in (0, 1, 100_000):
             names.append(f"cut-{len(names)}")
-            cut(target, one.replace(b"Host:", f"X-Request-ID: {names[-1]}\r\nHost:".encode()), least)
+            cut(target, query.replace(b"Host:", f"X-Request-ID: {names[-1]}\r\nHost:".encode()), least)
     # that of what the sweep was asked before may come as late
-    found = [line for line in lines(target, begun, len(names), "cut-") if line["request_id"].startswith("cut-")]
-    assert [line for line in found if line["logger"] != "service.requests"] == []
-    assert {line["status"] for line in found} <= {200, 499}
-    assert sorted(line["request_id"] for line in found) == sorted(names)
+    passages = [line for line in lines(target, begun, len(names), "cut-") if line["request_id"].startswith("cut-")]
+    assert [line for line in passages if line["logger"] != "service.requests"] == []
+    assert {line["status"] for line in passages} <= {200, 499}
+    assert sorted(line["request_id"] for line in passages) == sorted(names)
 
 
 def test_rows_that_are_damaged_in_the_middle(target: Service, sweep: str, folder: Path) -> None:
@@ -115,9 +119,9 @@ def test_rows_that_are_damaged_in_the_middle(target: Service, sweep: str, folder
                 break
             assert time.monotonic() < deadline, state
             time.sleep(0.05)
-    said = [line for line in lines(target, begun, repaired) if line["logger"] != "service.requests"]
-    assert [line for line in said if "exc_info" in line] == []
-    cuts = [line for line in said if "an answer was cut" in line["message"]]
+    passages = [line for line in lines(target, begun, repaired) if line["logger"] != "service.requests"]
+    assert [line for line in passages if "exc_info" in line] == []
+    cuts = [line for line in passages if "an answer was cut" in line["message"]]
     assert len(cuts) == repaired
     assert all("Rows damaged: The file of the rows" in line["message"] for line in cuts)
     assert len({line["request_id"] for line in cuts}) == repaired

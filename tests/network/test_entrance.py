@@ -41,12 +41,12 @@ class House:
         config = Config(app, lifespan="off", log_config=None)
         config.load()
 
-        def made() -> Connection:
+        def connection() -> Connection:
             self.made += 1
             return protocol(config, self.state, {})
 
         self.listening = listen(SETTINGS)
-        self.entrance = Entrance(self.listening, self.doors, protocol.rounds, made, patience_s)
+        self.entrance = Entrance(self.listening, self.doors, protocol.rounds, connection, patience_s)
 
     @asynccontextmanager
     async def connected(self) -> AsyncIterator[tuple[asyncio.StreamReader, asyncio.StreamWriter]]:
@@ -68,24 +68,24 @@ class House:
 
 
 def within(room: int, work: Callable[[House], Coroutine[Any, Any, Any]], patience_s: float = 600) -> Any:
-    async def found() -> Any:
+    async def outcome() -> Any:
         house = House(room, patience_s)
         house.entrance.open()
         try:
             async with asyncio.timeout(180):
-                told = await work(house)
+                actual_work = await work(house)
                 await house.empty()
-            return told
+            return actual_work
         finally:
             house.entrance.close()
             house.listening.close()
 
-    return asyncio.run(found())
+    return asyncio.run(outcome())
 
 
 @pytest.mark.parametrize("body", [b"", b" " * 3_000_000], ids=["", "with a body that is sent on"])
 def test_without_room_nothing_is_made_but_for_who_asks_for_health(body: bytes) -> None:
-    async def asked(house: House) -> None:
+    async def story(house: House) -> None:
         refused = await house.ask("/v1/sweeps", body)
         assert refused.status == 503
         assert refused.headers["retry-after"] == "1"
@@ -97,18 +97,18 @@ def test_without_room_nothing_is_made_but_for_who_asks_for_health(body: bytes) -
         # nothing else begins so, though the protocol is needed to tell
         assert (await house.ask("/healthzz")).status == 503
 
-    within(0, asked)
+    within(0, story)
 
 
 def test_with_room_there_is_an_answer_and_then_room_again() -> None:
-    async def asked(house: House) -> list[int]:
-        found = []
+    async def story(house: House) -> list[int]:
+        statuses = []
         for _ in range(3):
-            found.append((await house.ask("/v1/sweeps")).status)
+            statuses.append((await house.ask("/v1/sweeps")).status)
             await house.empty()
-        return found
+        return statuses
 
-    assert within(1, asked) == [200] * 3
+    assert within(1, story) == [200] * 3
 
 
 def test_of_those_without_room_who_came_first_makes_place() -> None:

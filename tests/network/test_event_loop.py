@@ -21,7 +21,7 @@ Loop = EventLoopPolicy = install = run = new_event_loop
 def test_another_loop_on_the_path_is_not_taken(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     (tmp_path / "uvloop.py").write_text(_OTHER_LOOP)
     monkeypatch.setenv("PYTHONPATH", str(tmp_path), prepend=os.pathsep)
-    with service() as made:
-        reply = asyncio.run(made.ask("GET", "/healthz"))
+    with service() as server:
+        reply = asyncio.run(server.ask("GET", "/healthz"))
         assert reply.status == 200
-        assert "uvloop" not in made.log()
+        assert "uvloop" not in server.log()

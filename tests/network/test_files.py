@@ -60,12 +60,12 @@ async def _ask(port: int, path: str = "/v1/examples", connection: str = "close")
 
 
 @contextmanager
-def _limited(files: int, others: int = server._OTHER_FILES, **settings: str) -> Iterator[tuple[int, Path]]:
+def _limited(files: int, rivals: int = server._OTHER_FILES, **settings: str) -> Iterator[tuple[int, Path]]:
     """The port and the log of a service that may open so many files, so many of them for others than connections."""
     with tempfile.TemporaryDirectory() as folder, open(f"{folder}/log", "w") as log:
-        given = {"DATA_DIR": f"{folder}/data", "LOG_LEVEL": "warning", **settings}
-        environment = {**os.environ, **{f"COUNTERWEIGHT_{name}": value for name, value in given.items()}}
-        command = ("tests.network.limited", str(files), str(others), "serve", "--port", "0")
+        actual_settings = {"DATA_DIR": f"{folder}/data", "LOG_LEVEL": "warning", **settings}
+        environment = {**os.environ, **{f"COUNTERWEIGHT_{name}": value for name, value in actual_settings.items()}}
+        command = ("tests.network.limited", str(files), str(rivals), "serve", "--port", "0")
         with Command(*command, environment=environment, stdout=subprocess.PIPE, stderr=log, text=True) as process:
             try:
                 assert process.stdout is not None
@@ -82,20 +82,20 @@ def test_a_service_without_files_says_so_once_and_goes_on(files: int) -> None:
         opened, reply = asyncio.run(_many(port, 250))
         assert opened > files
         assert reply.status == 200
-        said = log.read_text().splitlines()
-    assert len(said) < 40
-    assert sum("no file can be opened" in line for line in said) <= 1
+        lines = log.read_text().splitlines()
+    assert len(lines) < 40
+    assert sum("no file can be opened" in line for line in lines) <= 1
 
 
 def test_a_service_without_files_answers_for_its_health() -> None:
     # every file may be a connection, whatever else is open: as where large answers wait in files.
     # whoever says nothing is closed long after the test
-    with _limited(100, others=0, HEADERS_TIMEOUT_S="600") as (port, log):
+    with _limited(100, rivals=0, HEADERS_TIMEOUT_S="600") as (port, log):
         alive, ready, refused, again, after = asyncio.run(_probed(port, 250))
-        said = log.read_text()
+        text = log.read_text()
     assert (alive.status, again.status, after.status) == (200, 200, 200)
     # whether it is ready yet is not what matters here
     assert ready.status in (200, 503)
     assert ready.headers["connection"] == "close"
     assert refused.status == 503
-    assert "no file can be opened" in said
+    assert "no file can be opened" in text

@@ -36,7 +36,7 @@ def test_what_was_answered_is_gone_with_its_last_reference(tmp_path: Path) -> No
     config = uvicorn.Config(create_app(settings, warm=False), http=protocol, log_config=None, lifespan="off")
     config.load()
 
-    async def asked() -> list[object]:
+    async def story() -> list[object]:
         loop = asyncio.get_running_loop()
         async with await loop.create_server(lambda: protocol(config, state, {}), "127.0.0.1", 0) as listening:
             port = listening.sockets[0].getsockname()[1]
@@ -50,11 +50,11 @@ def test_what_was_answered_is_gone_with_its_last_reference(tmp_path: Path) -> No
                         await asyncio.sleep(0.01)
                 gc.collect()
                 gc.set_debug(0)
-                found, gc.garbage[:] = [each for each in gc.garbage if isinstance(each, OURS)], []
-        return found
+                values, gc.garbage[:] = [value for value in gc.garbage if isinstance(value, OURS)], []
+        return values
 
     try:
-        assert asyncio.run(asked()) == []
+        assert asyncio.run(story()) == []
     finally:
         gc.set_debug(0)
         gc.garbage.clear()

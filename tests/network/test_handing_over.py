@@ -33,24 +33,24 @@ class Answered:
 
 
 @pytest.mark.parametrize(
-    ("queued", "done"), [(1, ["the next is asked", "the answer is written"]), (0, ["the answer is written"])]
+    ("queued", "texts"), [(1, ["the next is asked", "the answer is written"]), (0, ["the answer is written"])]
 )
-def test_who_waits_is_asked_before_the_answer_is_written(queued: int, done: list[str]) -> None:
+def test_who_waits_is_asked_before_the_answer_is_written(queued: int, texts: list[str]) -> None:
     settings, pool = Settings(), Answered(queued)
     metrics = Metrics(cast(Pool, pool), lambda: None, lambda: 0)
     computing = Computing(settings, Readiness({}, Threads(), "ready"), cast(Pool, pool), metrics, Tracing())
     headers = [(b"content-type", b"application/json")]
     state = {"holding": Holding(quotas(shares(settings)), "somebody")}
     scope = {"type": "http", "method": "POST", "path": "/v1/optimize", "headers": headers, "state": state}
-    sent = iter([{"type": "http.request", "body": b"{}", "more_body": False}])
+    values = iter([{"type": "http.request", "body": b"{}", "more_body": False}])
 
     async def receive() -> dict[str, Any]:
         # then it waits for the answer
-        return next(sent, None) or await asyncio.Future()
+        return next(values, None) or await asyncio.Future()
 
     async def answered() -> None:
         await computing.answer(Request(scope, cast(Any, receive)), COMPUTATIONS["optimize"])
         pool.done.append("the answer is written")
 
     asyncio.run(answered())
-    assert pool.done == done
+    assert pool.done == texts

@@ -53,5 +53,5 @@ def test_with_keys_the_host_does_not_matter(tmp_path: Path) -> None:
     key, record = keys.make("alice", ("read",))
     keys.write(tmp_path / "keys", [record])
     app = create_app(Settings(data_dir=tmp_path, keys_file=tmp_path / "keys"), warm=False)
-    asked = {"Host": "service.example", "X-API-Key": key}
-    assert TestClient(app).get("/v1/examples", headers=asked).status_code == 200
+    fields = {"Host": "service.example", "X-API-Key": key}
+    assert TestClient(app).get("/v1/examples", headers=fields).status_code == 200

@@ -47,8 +47,8 @@ def watched() -> tuple[Loop, Idleness, list[float]]:
 
 def test_a_connection_is_idle_since_its_last_answer(watched: tuple[Loop, Idleness, list[float]]) -> None:
     loop, idleness, late = watched
-    for asked in range(40):
-        loop.until(0.5 * asked)
+    for index in range(40):
+        loop.until(0.5 * index)
         idleness.end()
         idleness.begin()
         assert len(loop.timers) == 1

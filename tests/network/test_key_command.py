@@ -24,9 +24,9 @@ def file(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 
 
 def test_a_key_from_its_making_to_its_end(file: Path) -> None:
-    made = run("create", "alice", "--scope", "read", "--scope", "metrics", "--days", "2", "--rate", "5/second")
-    assert made.exit_code == 0
-    key = made.stdout.strip()
+    process = run("create", "alice", "--scope", "read", "--scope", "metrics", "--days", "2", "--rate", "5/second")
+    assert process.exit_code == 0
+    key = process.stdout.strip()
     assert run("create", "bob").exit_code == 0
     caller = Keys(file).caller(key)
     assert caller is not None
@@ -42,7 +42,7 @@ def test_a_key_from_its_making_to_its_end(file: Path) -> None:
 
 
 @pytest.mark.parametrize(
-    ("arguments", "said"),
+    ("arguments", "text"),
     [
         (("create", "a b"), "owner: "),
         (("create", "a", "--scope", "everything"), "scopes: "),
@@ -52,10 +52,10 @@ def test_a_key_from_its_making_to_its_end(file: Path) -> None:
         (("create", "a", "--file", "/proc/none/keys"), "cannot write"),
     ],
 )
-def test_what_is_wrong_is_said(file: Path, arguments: tuple[str, ...], said: str) -> None:
+def test_what_is_wrong_is_said(file: Path, arguments: tuple[str, ...], text: str) -> None:
     result = run(*arguments)
     assert result.exit_code == 2
-    assert said in result.stderr
+    assert text in result.stderr
     assert "Traceback" not in result.stderr
     assert not file.exists()
 
@@ -77,20 +77,20 @@ def test_an_unknown_key_cannot_be_revoked(file: Path) -> None:
 
 def test_of_two_changes_at_a_time_none_is_lost(file: Path) -> None:
     def add(owner: str) -> None:
-        with keys.changed(file, new=True) as known:
-            known.append(keys.make(owner, ("read",))[1])
+        with keys.changed(file, new=True) as site:
+            site.append(keys.make(owner, ("read",))[1])
 
-    others = [threading.Thread(target=add, args=(f"other{number}",)) for number in range(3)]
-    with keys.changed(file, new=True) as known:
-        for other in others:
-            other.start()
+    threads = [threading.Thread(target=add, args=(f"other{number}",)) for number in range(3)]
+    with keys.changed(file, new=True) as records:
+        for thread in threads:
+            thread.start()
         # long enough for one that does not wait; one that does may take as long as it likes
-        for other in others:
-            other.join(0.2)
+        for single_thread in threads:
+            single_thread.join(0.2)
         assert not file.exists()
-        known.append(keys.make("first", ("read",))[1])
-    for other in others:
-        other.join()
+        records.append(keys.make("first", ("read",))[1])
+    for second_thread in threads:
+        second_thread.join()
     assert sorted(record.owner for record in keys.read(file)) == ["first", "other0", "other1", "other2"]
     assert file.stat().st_mode & 0o777 == 0o600
 
@@ -100,8 +100,8 @@ def test_a_change_that_raises_changes_nothing(file: Path) -> None:
     before = file.read_bytes()
 
     def half() -> None:
-        with keys.changed(file) as known:
-            known.clear()
+        with keys.changed(file) as site:
+            site.clear()
             raise ArithmeticError
 
     with pytest.raises(ArithmeticError):

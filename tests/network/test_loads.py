@@ -64,14 +64,14 @@ def test_who_asks_without_end_is_known_soon_and_a_first_request_is_little() -> N
     assert loads.of("without end") == pytest.approx(1.0)
 
 
-@pytest.mark.parametrize("others", [0, 3])
-def test_many_short_turns_add_up(others: int) -> None:
+@pytest.mark.parametrize("count", [0, 3])
+def test_many_short_turns_add_up(count: int) -> None:
     loads = Played()
     for _ in range(2000):
-        for owner in ("without end", *map(str, range(others))):
+        for owner in ("without end", *map(str, range(count))):
             loads.take(owner)
         loads.seconds += 0.003
-        for owner in ("without end", *map(str, range(others))):
+        for owner in ("without end", *map(str, range(count))):
             loads.end(owner, 0.003, 0.002)
         loads.seconds += 0.001
     # analytic: half of the time a core computes

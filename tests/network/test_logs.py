@@ -30,16 +30,16 @@ TRACE = "0af7651916cd43dd8448eb211c80319c"
 BODY = load("w60").replace(b'"name": "', f'"name": "{SECRET} '.encode(), 1)
 
 
-def lines(said: str) -> list[dict[str, Any]]:
+def lines(text: str) -> list[dict[str, Any]]:
     # the last may be half written
-    return [json.loads(line) for line in said[: said.rfind("\n") + 1].splitlines()]
+    return [json.loads(line) for line in text[: text.rfind("\n") + 1].splitlines()]
 
 
-def requests(said: str, path: str) -> list[dict[str, Any]]:
-    return [line for line in lines(said) if line["logger"] == "service.requests" and line["path"] == path]
+def requests(text: str, path: str) -> list[dict[str, Any]]:
+    return [line for line in lines(text) if line["logger"] == "service.requests" and line["path"] == path]
 
 
-def said_about_requests(target: Service) -> str:
+def log_of_requests(target: Service) -> str:
     """What the service logs about four requests, one of which tries to write a line of its own."""
     before = len(target.log())
 
@@ -61,19 +61,19 @@ def said_about_requests(target: Service) -> str:
 
 
 def test_every_line_is_json_with_the_request_and_without_the_machine(target: Service) -> None:
-    said = said_about_requests(target)
-    good, bad = requests(said, "/v1/optimize")
+    text = log_of_requests(target)
+    good, bad = requests(text, "/v1/optimize")
     assert (good["status"], good["method"], good["request_id"], good["trace_id"]) == (200, "POST", "mine-1", TRACE)
     assert good["duration_ms"] > 0
     assert bad["status"] == 422
     assert bad["trace_id"] != TRACE
-    assert [line["level"] for line in requests(said, INJECTION)] == ["INFO"]
-    assert SECRET not in said
+    assert [line["level"] for line in requests(text, INJECTION)] == ["INFO"]
+    assert SECRET not in text
 
 
 def test_machines_are_logged_if_asked_for() -> None:
     with service(log_machines="true") as target:
-        good, bad = requests(said_about_requests(target), "/v1/optimize")
+        good, bad = requests(log_of_requests(target), "/v1/optimize")
     assert SECRET in good["body"]
     assert SECRET in bad["body"]
 
@@ -82,7 +82,7 @@ def test_a_fault_is_logged_by_where_it_is(tmp_path: Path, capsys: pytest.Capture
     def fail() -> None:
         raise RuntimeError(SECRET)
 
-    kept = logging.getLogger().handlers[:], logging.getLogger().level
+    pair = logging.getLogger().handlers[:], logging.getLogger().level
     try:
         for quotes, form in ((False, "json"), (True, "json"), (False, "text")):
             logs.configure(Settings(log_machines=quotes, log_format=form))
@@ -90,14 +90,14 @@ def test_a_fault_is_logged_by_where_it_is(tmp_path: Path, capsys: pytest.Capture
                 fail()
             except RuntimeError:
                 logging.getLogger("x").exception("it failed")
-            said = capsys.readouterr().err
-            assert "it failed" in said
-            assert "RuntimeError" in said
-            assert "test_logs.py" in said
-            assert (SECRET in said) is quotes
+            text = capsys.readouterr().err
+            assert "it failed" in text
+            assert "RuntimeError" in text
+            assert "test_logs.py" in text
+            assert (SECRET in text) is quotes
     finally:
-        logging.getLogger().handlers[:], _ = kept
-        logging.getLogger().setLevel(kept[1])
+        logging.getLogger().handlers[:], _ = pair
+        logging.getLogger().setLevel(pair[1])
 
 
 def test_what_nobody_foresaw_is_one_line_with_the_id_of_its_request(
@@ -112,30 +112,30 @@ def test_what_nobody_foresaw_is_one_line_with_the_id_of_its_request(
     app.add_api_route("/v1/broken", fail)
     # before the route that answers whatever no other does
     app.router.routes.insert(0, app.router.routes.pop())
-    kept = logging.getLogger().handlers[:], logging.getLogger().level
+    pair = logging.getLogger().handlers[:], logging.getLogger().level
     try:
         logs.configure(settings)
         with listen(settings) as listening:
             server = uvicorn.Server(uvicorn.Config(app, log_config=None, access_log=False, lifespan="off"))
             thread = threading.Thread(target=server.run, args=([listening],))
             thread.start()
-            asked = urllib.request.Request(f"{url(listening)}/v1/broken", headers={"X-Request-ID": "mine-2"})
+            body = urllib.request.Request(f"{url(listening)}/v1/broken", headers={"X-Request-ID": "mine-2"})
             with pytest.raises(urllib.error.HTTPError) as answered:
-                urllib.request.urlopen(asked, timeout=180)
+                urllib.request.urlopen(body, timeout=180)
             answered.value.close()
             server.should_exit = True
             thread.join(180)
-        said = capsys.readouterr().err
+        text = capsys.readouterr().err
     finally:
-        logging.getLogger().handlers[:], _ = kept
-        logging.getLogger().setLevel(kept[1])
+        logging.getLogger().handlers[:], _ = pair
+        logging.getLogger().setLevel(pair[1])
     assert (answered.value.code, answered.value.headers["X-Request-ID"]) == (500, "mine-2")
-    assert SECRET not in said
-    (fault,) = (line for line in lines(said) if line["level"] == "ERROR")
+    assert SECRET not in text
+    (fault,) = (line for line in lines(text) if line["level"] == "ERROR")
     assert fault["request_id"] == "mine-2"
     assert "test_logs.py" in fault["exc_info"]
     assert fault["exc_info"].endswith("RuntimeError")
-    (request,) = requests(said, "/v1/broken")
+    (request,) = requests(text, "/v1/broken")
     assert (request["status"], request["request_id"]) == (500, "mine-2")
 
 
@@ -145,14 +145,14 @@ def test_nobody_begins_a_line_of_text() -> None:
         for path in (b"/%0a2026-01-01 00:00:00,000 ERROR   forged", b"/%0d%1b[2J%c2%85%e2%80%a8x", b'/"%20status=200'):
             asyncio.run(target.send(b"GET " + path.replace(b" ", b"%20") + b" HTTP/1.0\r\n\r\n"))
         deadline = time.monotonic() + 180
-        while (said := target.log()[before:]).count("unmatched 404") < 3:
+        while (log := target.log()[before:]).count("unmatched 404") < 3:
             assert time.monotonic() < deadline
             time.sleep(0.02)
-    begun = [line for line in said.split("\n") if line and not line.startswith("    ")]
+    begun = [line for line in log.split("\n") if line and not line.startswith("    ")]
     assert len(begun) == 3
     quoted = re.compile(r'\S+ \S+ INFO    GET unmatched 404 method=GET path="(?:[^"\\]|\\.)*" status=404 .*')
     assert all(quoted.fullmatch(line) for line in begun)
-    assert not set(said) & set("\r\x1b\x85\u2028")
+    assert not set(log) & set("\r\x1b\x85\u2028")
 
 
 @pytest.fixture(scope="module")
@@ -165,8 +165,8 @@ def client(tmp_path_factory: pytest.TempPathFactory) -> Iterator[TestClient]:
 def sample(client: TestClient, name: str) -> float:
     answer = client.get("/metrics")
     assert answer.headers["content-type"].startswith("text/plain")
-    found = re.search(rf"^{re.escape(name)} (\S+)$", answer.text, re.MULTILINE)
-    return float(found[1]) if found else 0.0
+    match = re.search(rf"^{re.escape(name)} (\S+)$", answer.text, re.MULTILINE)
+    return float(match[1]) if match else 0.0
 
 
 def test_metrics_count_requests_solves_and_gaps(client: TestClient) -> None:
@@ -231,8 +231,10 @@ def test_traces_go_to_the_collector(tmp_path: Path) -> None:
             collector.shutdown()
             thread.join()
     # at once, unless the machine is late by seconds in between
-    sent = [resource for each in got for resource in ExportTraceServiceRequest.FromString(each).resource_spans]
-    spans = {span.name: span for resource in sent for scope in resource.scope_spans for span in scope.spans}
+    resources = [
+        resource for content in got for resource in ExportTraceServiceRequest.FromString(content).resource_spans
+    ]
+    spans = {span.name: span for resource in resources for scope in resource.scope_spans for span in scope.spans}
     assert set(spans) == {"POST", "optimize"}
     assert {span.trace_id.hex() for span in spans.values()} == {TRACE}
     assert spans["optimize"].parent_span_id == spans["POST"].span_id

@@ -20,10 +20,10 @@ class Slow:
 
     def __call__(self) -> int:
         self.taken += 1
-        found = self.taken
+        count = self.taken
         self.begun.set()
         assert self.go.wait(180)
-        return found
+        return count
 
 
 def run(work: Callable[[], Coroutine[Any, Any, Any]]) -> Any:
@@ -42,7 +42,7 @@ async def waiting(looks: SingleFlight, look: Slow, count: int) -> list[asyncio.T
 
 
 def test_those_who_ask_while_one_is_taken_share_the_next() -> None:
-    async def found() -> list[int]:
+    async def story() -> list[int]:
         looks, look = SingleFlight(FairScheduler().turn), Slow()
         first = await waiting(looks, look, 1)
         await asyncio.to_thread(look.begun.wait, 180)
@@ -51,62 +51,62 @@ def test_those_who_ask_while_one_is_taken_share_the_next() -> None:
         return await asyncio.gather(*first, *later)
 
     # nobody is told what was found before he asked
-    assert run(found) == [1, *[2] * 300]
+    assert run(story) == [1, *[2] * 300]
 
 
 def test_a_client_looks_at_one_thing_at_a_time_and_keeps_nobody_else_waiting() -> None:
-    async def found() -> tuple[int, str, bool]:
+    async def story() -> tuple[int, str, bool]:
         looks, look = SingleFlight(FairScheduler().turn), Slow()
         many = [asyncio.create_task(looks.at("many", k, look)) for k in range(100)]
         await asyncio.to_thread(look.begun.wait, 180)
-        other = await looks.at("other", 0, lambda: "seen")
-        taken, waits = look.taken, not any(each.done() for each in many)
+        text = await looks.at("other", 0, lambda: "seen")
+        taken, waits = look.taken, not any(task.done() for task in many)
         look.go.set()
         assert sorted(await asyncio.gather(*many)) == list(range(1, 101))
-        return taken, other, waits
+        return taken, text, waits
 
-    assert run(found) == (1, "seen", True)
+    assert run(story) == (1, "seen", True)
 
 
 def test_who_looks_now_and_then_does_not_wait_for_others_whose_looks_take_long() -> None:
-    async def found() -> tuple[str, bool]:
+    async def story() -> tuple[str, bool]:
         looks, slow = SingleFlight(FairScheduler().turn), [Slow() for _ in range(int(LOOKS.altogether))]
-        others = [asyncio.create_task(looks.at(f"client {k}", 0, look)) for k, look in enumerate(slow)]
+        tasks = [asyncio.create_task(looks.at(f"client {k}", 0, look)) for k, look in enumerate(slow)]
         for look in slow:
             await asyncio.to_thread(look.begun.wait, 180)
-        seen = await looks.at("other", 0, lambda: "seen")
-        waits = not any(task.done() for task in others)
+        text = await looks.at("other", 0, lambda: "seen")
+        waits = not any(task.done() for task in tasks)
         for look in slow:
             look.go.set()
-        await asyncio.gather(*others)
-        return seen, waits
+        await asyncio.gather(*tasks)
+        return text, waits
 
-    assert run(found) == ("seen", True)
+    assert run(story) == ("seen", True)
 
 
 def test_who_leaves_takes_nothing_from_the_others() -> None:
-    async def found() -> int:
+    async def story() -> int:
         looks, look = SingleFlight(FairScheduler().turn), Slow()
         gone, stays = await waiting(looks, look, 2)
         gone.cancel()
         look.go.set()
         return await stays
 
-    assert run(found) == 1
+    assert run(story) == 1
 
 
 def test_what_goes_wrong_is_told_to_all_and_the_next_look_is_another() -> None:
     def fails() -> int:
         raise KeyError("gone")
 
-    async def found() -> list[object]:
+    async def story() -> list[object]:
         looks = SingleFlight(FairScheduler().turn)
-        told: list[object] = list(
+        values: list[object] = list(
             await asyncio.gather(*(looks.at("me", "state", fails) for _ in range(3)), return_exceptions=True)
         )
-        return [*map(repr, told), await looks.at("me", "state", lambda: 1)]
+        return [*map(repr, values), await looks.at("me", "state", lambda: 1)]
 
-    assert run(found) == ["KeyError('gone')"] * 3 + [1]
+    assert run(story) == ["KeyError('gone')"] * 3 + [1]
 
 
 def test_after_its_looks_a_client_is_forgotten() -> None:
@@ -165,7 +165,7 @@ def test_those_who_shared_a_look_go_on_one_after_the_other() -> None:
         asking = [asyncio.create_task(looks.at("me", "state", lambda: 1)) for _ in range(300)]
         turns.put_nowait(None)
         await asyncio.wait(asking, return_when=asyncio.FIRST_COMPLETED)
-        first = sum(each.done() for each in asking)
+        first = sum(task.done() for task in asking)
         for _ in range(299):
             turns.put_nowait(None)
         return first, sum(await asyncio.gather(*asking))

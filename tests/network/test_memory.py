@@ -43,7 +43,7 @@ async def _stopped_readers(target: Service, path: str, least_mb: float) -> None:
                 await asyncio.sleep(0.1)
 
 
-async def _given_back(target: Service, rest_mb: float) -> None:
+async def _wait_for_memory(target: Service, rest_mb: float) -> None:
     async with asyncio.timeout(180):
         while target.memory_mb()[0] > rest_mb + _ABOVE_MB:
             await asyncio.sleep(0.5)
@@ -56,7 +56,7 @@ def test_memory_of_stopped_readers_is_given_back() -> None:
         rest_mb = target.memory_mb()[0]
         for _ in range(3):
             asyncio.run(_stopped_readers(target, path, rest_mb + _ABOVE_MB))
-            asyncio.run(_given_back(target, rest_mb))
+            asyncio.run(_wait_for_memory(target, rest_mb))
 
 
 class _Clock:

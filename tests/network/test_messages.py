@@ -21,16 +21,16 @@ def ends() -> Iterator[tuple[socket.socket, socket.socket]]:
         yield ours, theirs
 
 
-async def heard(ours: socket.socket) -> tuple[Any, BinaryIO | None]:
+async def next_message(ours: socket.socket) -> tuple[Any, BinaryIO | None]:
     """What comes next."""
     return await Listener(ours).receive()
 
 
-def whole(said: object) -> bytes:
+def whole(value: object) -> bytes:
     """The bytes of an object as they go over a socket."""
     ours, theirs = socket.socketpair()
     with ours, theirs:
-        say(theirs, said)
+        say(theirs, value)
         return ours.recv(1_000_000)
 
 
@@ -38,9 +38,9 @@ def test_objects_come_as_they_were_said(ends: tuple[socket.socket, socket.socket
     ours, theirs = ends
     # each in an event loop of its own
     listener = Listener(ours)
-    for said in (None, "short", {"a": bytes(50_000)}):
-        say(theirs, said)
-        assert anyio.run(listener.receive) == (said, None)
+    for value in (None, "short", {"a": bytes(50_000)}):
+        say(theirs, value)
+        assert anyio.run(listener.receive) == (value, None)
 
 
 def test_an_object_that_comes_in_pieces_is_waited_for(ends: tuple[socket.socket, socket.socket]) -> None:
@@ -48,18 +48,18 @@ def test_an_object_that_comes_in_pieces_is_waited_for(ends: tuple[socket.socket,
     message = whole("in pieces")
 
     async def piecemeal() -> Any:
-        found: list[Any] = []
+        messages: list[Any] = []
 
         async def listen() -> None:
-            found.append(await heard(ours))
+            messages.append(await next_message(ours))
 
         async with anyio.create_task_group() as tasks:
             tasks.start_soon(listen)
             for byte in message:
-                assert not found
+                assert not messages
                 theirs.sendall(bytes([byte]))
                 await anyio.lowlevel.checkpoint()
-        return found
+        return messages
 
     assert anyio.run(piecemeal) == [("in pieces", None)]
 
@@ -69,7 +69,7 @@ def test_an_object_larger_than_the_socket_holds_is_sent_whole(ends: tuple[socket
     large = os.urandom(2_000_000)
     worker = Thread(target=say, args=(theirs, large))
     worker.start()
-    assert anyio.run(heard, ours) == (large, None)
+    assert anyio.run(next_message, ours) == (large, None)
     worker.join()
 
 
@@ -79,11 +79,11 @@ def test_a_file_comes_with_its_object(ends: tuple[socket.socket, socket.socket])
         file.write(b"large")
         file.seek(0)
         say(theirs, "beside it", file)
-    said, found = anyio.run(heard, ours)
-    assert said == "beside it"
-    assert found is not None
-    with found:
-        assert found.read() == b"large"
+    value, io = anyio.run(next_message, ours)
+    assert value == "beside it"
+    assert io is not None
+    with io:
+        assert io.read() == b"large"
 
 
 @pytest.mark.parametrize("count", [0, 3, 12])
@@ -92,7 +92,7 @@ def test_one_that_ends_in_the_middle_is_gone(ends: tuple[socket.socket, socket.s
     theirs.sendall(whole("never heard")[:count])
     theirs.close()
     with pytest.raises(EOFError):
-        anyio.run(heard, ours)
+        anyio.run(next_message, ours)
 
 
 def test_who_stops_waiting_leaves_what_comes_to_the_next(ends: tuple[socket.socket, socket.socket]) -> None:
@@ -139,9 +139,9 @@ def test_a_socket_is_closed_where_it_is_read(ends: tuple[socket.socket, socket.s
         await anyio.wait_all_tasks_blocked()
         assert ours.fileno() == -1
         # the number is free for another one
-        again, other = socket.socketpair()
-        with again, other:
-            say(other, 2)
+        again, actual_socket = socket.socketpair()
+        with again, actual_socket:
+            say(actual_socket, 2)
             assert await Listener(again).receive() == (2, None)
 
     anyio.run(ended_in_a_thread)
@@ -149,7 +149,7 @@ def test_a_socket_is_closed_where_it_is_read(ends: tuple[socket.socket, socket.s
 
 def test_what_a_loop_did_not_come_to_close_is_closed_with_the_next_one() -> None:
     """A loop may be over before it has done all that a thread asks of it."""
-    loop, (ours, theirs), (others, far) = asyncio.new_event_loop(), socket.socketpair(), socket.socketpair()
+    loop, (ours, theirs), (actual_socket, far) = asyncio.new_event_loop(), socket.socketpair(), socket.socketpair()
     with theirs, far:
         listener = Listener(ours)
         say(theirs, "begun")
@@ -157,5 +157,5 @@ def test_what_a_loop_did_not_come_to_close_is_closed_with_the_next_one() -> None
         listener.end()
         loop.close()
         assert ours.fileno() != -1
-        Listener(others).end()
-        assert (ours.fileno(), others.fileno()) == (-1, -1)
+        Listener(actual_socket).end()
+        assert (ours.fileno(), actual_socket.fileno()) == (-1, -1)

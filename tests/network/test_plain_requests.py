@@ -33,25 +33,25 @@ _FIRST = (
 def test_what_is_plain_is_read_as_h11_reads_it(first: bytes, lines: list[bytes], end: bytes) -> None:
     """Independent: the reader that takes all else."""
     body = b"{}more"
-    found = plain_head(end.join((first, *lines, b"", body)))
-    if found is None:
+    pair = plain_head(end.join((first, *lines, b"", body)))
+    if pair is None:
         return
-    head, at = found
-    other = h11.Connection(h11.SERVER)
-    other.receive_data(end.join((first, *lines, b"", body)))
-    asked = other.next_event()
-    assert isinstance(asked, h11.Request)
-    assert (head.method.encode(), head.target) == (asked.method, asked.target)
-    assert head.headers == list(asked.headers)
-    assert asked.http_version == b"1.1"
+    head, at = pair
+    connection = h11.Connection(h11.SERVER)
+    connection.receive_data(end.join((first, *lines, b"", body)))
+    next_event = connection.next_event()
+    assert isinstance(next_event, h11.Request)
+    assert (head.method.encode(), head.target) == (next_event.method, next_event.target)
+    assert head.headers == list(next_event.headers)
+    assert next_event.http_version == b"1.1"
     read = b""
-    while isinstance(event := other.next_event(), h11.Data):
+    while isinstance(event := connection.next_event(), h11.Data):
         read += event.data
     assert isinstance(event, h11.EndOfMessage)
     assert read == body[: head.length]
-    assert other.trailing_data[0] == body[head.length :]
+    assert connection.trailing_data[0] == body[head.length :]
     assert end.join((first, *lines, b"", body))[at:] == body
-    assert head.keep_alive == (other.their_state is h11.DONE)
+    assert head.keep_alive == (connection.their_state is h11.DONE)
 
 
 @pytest.mark.parametrize("name", [b"Host", b"host", b"Content-Length", b"Connection"])
@@ -74,9 +74,9 @@ def test_what_clients_send_is_plain() -> None:
 
 
 @given(st.lists(st.tuples(st.sampled_from(_FIRST), st.lists(st.sampled_from(_LINES[:8]), max_size=3)), max_size=6))
-def test_what_comes_again_is_read_as_the_first_time(said: list[tuple[bytes, list[bytes]]]) -> None:
+def test_what_comes_again_is_read_as_the_first_time(values: list[tuple[bytes, list[bytes]]]) -> None:
     heads = Heads()
-    for first, lines in said:
+    for first, lines in values:
         whole = b"\r\n".join((first, _LINES[0], *lines, b"", b"{}more"))
         for received in (whole, whole, whole[:-8], whole + b"x"):
             assert heads.plain(received) == plain_head(received)
@@ -103,7 +103,7 @@ async def app(scope: Scope, receive: Receive, send: Send) -> None:
     await send({"type": "http.response.body"})
 
 
-def heard(*pieces: bytes, headers_timeout_s: float = 300) -> bytes:
+def transcript(*pieces: bytes, headers_timeout_s: float = 300) -> bytes:
     """All that comes until the service closes; what is sent comes to it piece by piece."""
 
     async def run() -> bytes:
@@ -127,7 +127,9 @@ def heard(*pieces: bytes, headers_timeout_s: float = 300) -> bytes:
     return asyncio.run(run())
 
 
-def asked(path: str, body: bytes = b"", method: str = "POST", connection: str = "close", more: str = "") -> bytes:
+def request_bytes(
+    path: str, body: bytes = b"", method: str = "POST", connection: str = "close", more: str = ""
+) -> bytes:
     lines = (
         f"{method} {path} HTTP/1.1\r\nHost: a\r\nConnection: {connection}\r\nContent-Length: {len(body)}\r\n{more}\r\n"
     )
@@ -137,11 +139,11 @@ def asked(path: str, body: bytes = b"", method: str = "POST", connection: str = 
 def test_an_answer_is_what_h11_writes() -> None:
     """Independent: the same question with a header that only h11 reads."""
     for method, path in (("POST", "/a"), ("POST", "/chunks"), ("HEAD", "/a"), ("HEAD", "/chunks"), ("GET", "/a%20b")):
-        question = asked(path, b"hello", method)
-        other = asked(path, b"hello", method, more="X: \xe9\r\n")
+        question = request_bytes(path, b"hello", method)
+        body = request_bytes(path, b"hello", method, more="X: \xe9\r\n")
         assert plain_head(question) is not None
-        assert plain_head(other) is None
-        answers = [_sorted(heard(each)) for each in (question, other)]
+        assert plain_head(body) is None
+        answers = [_sorted(transcript(content)) for content in (question, body)]
         assert answers[0] == answers[1]
         assert answers[0][0] == b"HTTP/1.1 200 OK"
 
@@ -155,67 +157,67 @@ def _sorted(answer: bytes) -> list[bytes]:
 
 
 def test_a_body_may_come_in_pieces() -> None:
-    question = asked("/a", bytes(100_000))
-    said = heard(question[:200], question[200:50_000], question[50_000:])
-    assert said.endswith(b"\r\n\r\n" + bytes(100_000))
+    question = request_bytes("/a", bytes(100_000))
+    message = transcript(question[:200], question[200:50_000], question[50_000:])
+    assert message.endswith(b"\r\n\r\n" + bytes(100_000))
 
 
 def test_questions_that_come_together_are_answered_in_their_order() -> None:
     """Plain ones and others, in one piece and in pieces that begin anywhere."""
-    unusual = asked("/c", b"", "GET", "keep-alive", more="X: \xe9\r\n")
+    unusual = request_bytes("/c", b"", "GET", "keep-alive", more="X: \xe9\r\n")
     every_weight = b"".join(
         (
-            asked("/a", b"one", connection="keep-alive"),
-            asked("/b", b"", "GET", "keep-alive"),
+            request_bytes("/a", b"one", connection="keep-alive"),
+            request_bytes("/b", b"", "GET", "keep-alive"),
             unusual,
-            asked("/d", b"two", connection="keep-alive"),
-            asked("/e"),
+            request_bytes("/d", b"two", connection="keep-alive"),
+            request_bytes("/e"),
         )
     )
     for size in (len(every_weight), 100, 37):
-        said = heard(*(every_weight[at : at + size] for at in range(0, len(every_weight), size)))
-        heads = [line for line in said.split(b"\r\n") if line.startswith(b"x-path")]
+        message = transcript(*(every_weight[at : at + size] for at in range(0, len(every_weight), size)))
+        heads = [line for line in message.split(b"\r\n") if line.startswith(b"x-path")]
         assert heads == [b"x-path: /" + name for name in (b"a", b"b", b"c", b"d", b"e")], size
 
 
 def test_a_body_that_was_answered_early_is_read_to_its_end() -> None:
-    early = asked("/early", bytes(50_000), connection="keep-alive")
-    said = heard(early[:1000], early[1000:], asked("/after"))
-    assert b"x-path: /early" in said
-    assert b"x-path: /after" in said
+    early = request_bytes("/early", bytes(50_000), connection="keep-alive")
+    message = transcript(early[:1000], early[1000:], request_bytes("/after"))
+    assert b"x-path: /early" in message
+    assert b"x-path: /after" in message
 
 
 def test_a_body_that_never_ends_after_its_answer_ends_the_connection() -> None:
-    question = asked("/early", bytes(50_000), connection="keep-alive")
-    assert b"x-path: /early" in heard(question[:1000], headers_timeout_s=1)
+    question = request_bytes("/early", bytes(50_000), connection="keep-alive")
+    assert b"x-path: /early" in transcript(question[:1000], headers_timeout_s=1)
 
 
 @pytest.mark.parametrize("path", ["/split", "/short"])
 def test_an_answer_that_is_none_ends_the_connection(path: str, caplog: pytest.LogCaptureFixture) -> None:
-    said = heard(asked(path, b"hello", connection="keep-alive"))
-    assert b"b: c" not in said
+    message = transcript(request_bytes(path, b"hello", connection="keep-alive"))
+    assert b"b: c" not in message
     assert "Exception in ASGI application" in caplog.text
 
 
-@pytest.mark.parametrize("before", [b"", asked("/before", b"hello", connection="keep-alive")])
+@pytest.mark.parametrize("before", [b"", request_bytes("/before", b"hello", connection="keep-alive")])
 @pytest.mark.parametrize("length", ["0", "5", "999"])
 def test_a_request_with_two_lengths_is_the_last_of_its_connection(before: bytes, length: str) -> None:
     """RFC 9112, 6.1: what comes after it is a request to one reader, and a body to another."""
     head = f"POST /both HTTP/1.1\r\nHost: a\r\nContent-Length: {length}\r\nTransfer-Encoding: chunked\r\n\r\n"
     both = head.encode() + b"0\r\n\r\n"
-    smuggled = asked("/after", connection="keep-alive")
+    smuggled = request_bytes("/after", connection="keep-alive")
     for pieces in ((before + both + smuggled,), (before, both, smuggled), (before + head.encode(), b"0\r\n\r\n")):
-        said = heard(*pieces, headers_timeout_s=2)
-        assert (b"x-path: /before" in said) == bool(before)
-        refusal = said[said.index(b"HTTP/1.1 400 ") :]
+        message = transcript(*pieces, headers_timeout_s=2)
+        assert (b"x-path: /before" in message) == bool(before)
+        refusal = message[message.index(b"HTTP/1.1 400 ") :]
         assert b"\r\nconnection: close\r\n" in refusal.lower()
         assert b"Transfer-Encoding, not both" in refusal
-        assert b"x-path: /both" not in said
-        assert b"x-path: /after" not in said
+        assert b"x-path: /both" not in message
+        assert b"x-path: /after" not in message
 
 
 def test_a_client_that_says_nothing_more_is_let_go() -> None:
     """The time for the next head begins with its first byte, as it does with h11."""
-    said = heard(asked("/a", connection="keep-alive"), b"GET /", headers_timeout_s=1)
-    assert b"x-path: /a" in said
-    assert b" 408 " in said
+    message = transcript(request_bytes("/a", connection="keep-alive"), b"GET /", headers_timeout_s=1)
+    assert b"x-path: /a" in message
+    assert b" 408 " in message

@@ -22,21 +22,23 @@ from tests.network.tasks import task
 
 
 def test_who_asks_for_more_is_computed_behind_the_others(pool: Pool) -> None:
-    def said(*found: object) -> list[list[int]]:
+    def numbers(*arguments: object) -> list[list[int]]:
         return [
-            [int(each) for each in json.loads(one.content)["title"].split()] for one in found if isinstance(one, Answer)
+            [int(part) for part in json.loads(argument.content)["title"].split()]
+            for argument in arguments
+            if isinstance(argument, Answer)
         ]
 
     here = os.getpriority(os.PRIO_PROCESS, 0)
     first, behind = (min(19, here + nicer) for nicer in (2, 10))
-    assert said(*run(pool, task(tasks.niceness))) == [[first, first]]
-    many = said(*run(pool, *[task(tasks.niceness)] * 4))
+    assert numbers(*run(pool, task(tasks.niceness))) == [[first, first]]
+    many = numbers(*run(pool, *[task(tasks.niceness)] * 4))
     assert len(many) == 4
     # the first is alone when it begins, and the last may be
     assert [own for own, _ in many[:3]] == [first, behind, behind]
     assert {process for _, process in many} == {first}
     # and whoever is alone again is not behind anybody
-    assert said(*run(pool, task(tasks.niceness))) == [[first, first]]
+    assert numbers(*run(pool, task(tasks.niceness))) == [[first, first]]
 
 
 def test_who_asks_without_end_gives_way_to_who_asks_now_and_then(pool: Pool, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -111,9 +113,9 @@ def _nothing(_: Task) -> None:
 
 
 def test_long_tasks_are_computed_behind_all_others(pool: Pool) -> None:
-    [found] = run(pool, task(tasks.niceness, long=True))
-    assert isinstance(found, Answer)
-    own, process = (int(each) for each in json.loads(found.content)["title"].split())
+    [answer] = run(pool, task(tasks.niceness, long=True))
+    assert isinstance(answer, Answer)
+    own, process = (int(part) for part in json.loads(answer.content)["title"].split())
     here = os.getpriority(os.PRIO_PROCESS, 0)
     assert (own, process) == (min(19, here + 13), min(19, here + 2))
 
@@ -121,9 +123,9 @@ def test_long_tasks_are_computed_behind_all_others(pool: Pool) -> None:
 def test_what_computes_for_longer_goes_on_behind_the_others(pool: Pool) -> None:
     here = os.getpriority(os.PRIO_PROCESS, 0)
     first, last = (min(19, here + nicer) for nicer in (2, 13))
-    [found] = run(pool, task(tasks.lowered))
-    assert isinstance(found, Answer)
-    assert [int(each) for each in json.loads(found.content)["title"].split()] == [first, last]
+    [answer] = run(pool, task(tasks.lowered))
+    assert isinstance(answer, Answer)
+    assert [int(part) for part in json.loads(answer.content)["title"].split()] == [first, last]
     # in the same process the next is not behind anybody; nor is one that waits for something and computes nothing
     [waits] = run(pool, task(tasks.niceness))
     assert isinstance(waits, Answer)
@@ -135,7 +137,7 @@ def test_first_tasks_have_short_time_slices_and_others_those_of_the_system(pool:
     [first, long] = (run(pool, task(tasks.slices, long=long))[0] for long in (False, True))
     assert isinstance(first, Answer)
     assert isinstance(long, Answer)
-    short_ns, of_the_system_ns = (int(json.loads(one.content)["title"]) for one in (first, long))
+    short_ns, of_the_system_ns = (int(json.loads(answer.content)["title"]) for answer in (first, long))
     # before 6.12 Linux heeds none, and says 0
     heeds = tuple(map(int, os.uname().release.split("-")[0].split(".")[:2])) >= (6, 12)
     assert short_ns == (100_000 if heeds else 0)

@@ -29,43 +29,43 @@ class Loop:
 
 
 def test_what_is_alone_is_done_at_once_and_one_piece_in_a_turn() -> None:
-    loop, done = Loop(), list[int]()
+    loop, values = Loop(), list[int]()
     rounds = FairScheduler(loop.soon.append)
-    assert rounds.ask("a", lambda: done.append(1))
-    assert not rounds.ask("a", lambda: done.append(2))
-    assert done == [1]
+    assert rounds.ask("a", lambda: values.append(1))
+    assert not rounds.ask("a", lambda: values.append(2))
+    assert values == [1]
     loop.turn()
-    assert done == [1, 2]
+    assert values == [1, 2]
     loop.turn()
-    assert rounds.ask("a", lambda: done.append(3))
+    assert rounds.ask("a", lambda: values.append(3))
 
 
 def test_one_of_many_connections_delays_nobody() -> None:
-    loop, done = Loop(), list[str]()
+    loop, texts = Loop(), list[str]()
     rounds = FairScheduler(loop.soon.append)
     for k in range(300):
-        rounds.ask("many", lambda k=k: done.append(f"many {k}"))  # type: ignore[misc]
+        rounds.ask("many", lambda k=k: texts.append(f"many {k}"))  # type: ignore[misc]
     for _ in range(3):
-        rounds.ask("few", lambda: done.append("few"))
+        rounds.ask("few", lambda: texts.append("few"))
         loop.turn()
     # between two of its own there is nothing of the other's, however much of that waits
-    assert done == ["many 0", "few", "few", "few"]
+    assert texts == ["many 0", "few", "few", "few"]
 
 
 def test_of_whom_much_waits_something_is_done_however_much_others_ask() -> None:
-    loop, done = Loop(), list[str]()
+    loop, texts = Loop(), list[str]()
     rounds = FairScheduler(loop.soon.append)
     for k in range(300):
-        rounds.ask(f"client {k % 3}", lambda k=k: done.append(f"client {k % 3}"))  # type: ignore[misc]
-    asked = 0
+        rounds.ask(f"client {k % 3}", lambda k=k: texts.append(f"client {k % 3}"))  # type: ignore[misc]
+    count = 0
     for _ in range(30 * _APART):
         # always one, as soon as the one before is done
-        if done.count("few") == asked:
-            asked += 1
-            rounds.ask("few", lambda: done.append("few"))
+        if texts.count("few") == count:
+            count += 1
+            rounds.ask("few", lambda: texts.append("few"))
         loop.turn()
-    assert [each for each in done if each != "few"] == [f"client {k % 3}" for k in range(31)]
-    assert done.count("few") == 30 * (_APART - 1)
+    assert [text for text in texts if text != "few"] == [f"client {k % 3}" for k in range(31)]
+    assert texts.count("few") == 30 * (_APART - 1)
 
 
 def test_no_turn_goes_by_without_anything() -> None:
@@ -109,30 +109,30 @@ def test_no_turn_goes_by_without_anything() -> None:
 
 
 def test_what_waited_in_a_loop_that_has_ended_is_gone_with_it() -> None:
-    rounds, done = FairScheduler(), list[int]()
+    rounds, values = FairScheduler(), list[int]()
 
     async def ask() -> None:
         for k in range(3):
-            rounds.ask("a", lambda k=k: done.append(k))  # type: ignore[misc]
+            rounds.ask("a", lambda k=k: values.append(k))  # type: ignore[misc]
 
     for _ in range(2):
         asyncio.run(ask())
-    assert done.count(0) == 2
+    assert values.count(0) == 2
 
 
 @given(st.lists(st.sampled_from("abc"), max_size=30), st.lists(st.integers(0, 3), max_size=30))
 def test_all_is_done_once_and_in_the_order_of_its_client(clients: list[str], turns: list[int]) -> None:
-    loop, done = Loop(), list[tuple[str, int]]()
+    loop, values = Loop(), list[tuple[str, int]]()
     rounds = FairScheduler(loop.soon.append)
     for number, client in enumerate(clients):
-        rounds.ask(client, lambda client=client, number=number: done.append((client, number)))  # type: ignore[misc]
+        rounds.ask(client, lambda client=client, number=number: values.append((client, number)))  # type: ignore[misc]
         for _ in range(turns[number] if number < len(turns) else 0):
             loop.turn()
     for _ in range(_APART * len(clients) + 1):
         loop.turn()
     for client in "abc":
-        asked = [(each, number) for number, each in enumerate(clients) if each == client]
-        assert [one for one in done if one[0] == client] == asked
+        entries = [(browser, number) for number, browser in enumerate(clients) if browser == client]
+        assert [pair for pair in values if pair[0] == client] == entries
     assert not loop.soon
 
 
@@ -143,13 +143,13 @@ async def nobody(scope: object, receive: object, send: object) -> None:
 @asynccontextmanager
 async def waiting() -> AsyncIterator[tuple[Connection, asyncio.StreamReader, Loop]]:
     """A connection whose first bytes wait for their round, its client, and what gives them their round."""
-    loop, made = Loop(), list[Connection]()
+    loop, protocols = Loop(), list[Connection]()
 
     protocol = connections(Settings(), FairScheduler(loop.soon.append))
 
     def accepted() -> Connection:
-        made.append(protocol(config, ServerState(), {}))
-        return made[0]
+        protocols.append(protocol(config, ServerState(), {}))
+        return protocols[0]
 
     config = uvicorn.Config(nobody, interface="asgi3", http=protocol, log_config=None)
     config.load()
@@ -160,8 +160,8 @@ async def waiting() -> AsyncIterator[tuple[Connection, asyncio.StreamReader, Loo
         writer.write(request("GET", "/healthz"))
         while not protocol.rounds.waiting:
             await asyncio.sleep(0.01)
-        yield made[0], reader, loop
-        made[0].transport.abort()
+        yield protocols[0], reader, loop
+        protocols[0].transport.abort()
         writer.close()
         await writer.wait_closed()
 
@@ -196,13 +196,13 @@ def test_a_connection_whose_bytes_wait_is_not_idle() -> None:
 
 
 def test_who_waits_for_a_turn_has_it_in_the_order_of_the_clients() -> None:
-    async def told() -> list[str]:
-        rounds, done = FairScheduler(), list[str]()
+    async def story() -> list[str]:
+        rounds, clients = FairScheduler(), list[str]()
 
         async def pieces(client: str) -> None:
             for _ in range(3):
                 await rounds.turn(client)
-                done.append(client)
+                clients.append(client)
 
         async with asyncio.timeout(180), asyncio.TaskGroup() as group:
             many = [group.create_task(pieces("many")) for _ in range(50)]
@@ -210,9 +210,9 @@ def test_who_waits_for_a_turn_has_it_in_the_order_of_the_clients() -> None:
             await asyncio.sleep(0)
             group.create_task(pieces("few"))
             gone.cancel()
-        return done
+        return clients
 
-    done = asyncio.run(told())
-    assert done.count("many") >= 3 * 49
+    text = asyncio.run(story())
+    assert text.count("many") >= 3 * 49
     # between two of its own at most one of somebody else's, and one or two turns to ask for the next
-    assert [k for k, client in enumerate(done) if client == "few"][-1] < 20
+    assert [k for k, client in enumerate(text) if client == "few"][-1] < 20

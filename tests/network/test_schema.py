@@ -16,12 +16,12 @@ PATHS = (
 @pytest.mark.nightly
 def test_operations_answer_as_the_document_says(target: Service) -> None:
     phases = ("examples", "fuzzing", "stateful")
-    code, made, text = run(target.url, phases, 2, *(f"--include-path={path}" for path in PATHS))
+    code, count, text = run(target.url, phases, 2, *(f"--include-path={path}" for path in PATHS))
     assert code == 0, text
     selected = re.search(r"Selected: (\d+)/(\d+)", text)
     assert selected is not None, text
     # of one path two methods
     assert int(selected[1]) == len(PATHS) + 1
     assert int(selected[2]) >= 40
-    assert made >= 30, text
+    assert count >= 30, text
     assert target.faults() == []

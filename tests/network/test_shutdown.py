@@ -19,8 +19,8 @@ GRACE_S = 3
 
 @pytest.fixture
 def ending() -> Iterator[Service]:
-    with service(graceful_shutdown_s=GRACE_S) as made:
-        yield made
+    with service(graceful_shutdown_s=GRACE_S) as server:
+        yield server
 
 
 async def end(target: Service) -> None:
@@ -63,13 +63,13 @@ def test_work_that_does_not_end_is_answered_503_in_time(ending: Service) -> None
             writer.write(request("POST", "/v1/accuracy", LONG))
             await ending.computing(1)
             stopping = asyncio.create_task(end(ending))
-            found = await read(reader)
+            reply = await read(reader)
             await stopping
-            return found
+            return reply
 
-    found = asyncio.run(everything())
-    assert (found.status, json.loads(found.body)["title"]) == (503, "Workers failed")
-    assert int(found.headers["retry-after"]) > 0
+    response = asyncio.run(everything())
+    assert (response.status, json.loads(response.body)["title"]) == (503, "Workers failed")
+    assert int(response.headers["retry-after"]) > 0
     assert ending.faults() == []
 
 

@@ -76,8 +76,8 @@ def test_what_is_answered_later_is_no_larger(client: TestClient, path: str) -> N
 def test_what_is_as_large_as_allowed_is_computed(tmp_path: Path) -> None:
     exactly = {**LIMITS, "max_throws": 2, "max_rows": 2, "max_webs": 4}
     with TestClient(create_app(Settings(data_dir=tmp_path, **exactly), warm=False)) as client:
-        asked = {**SCENE, "outputs": ["hodograph"], "angles": {"step_deg": 0.9}}
-        assert client.post("/v1/analyze", json=asked).status_code == 200
+        scene = {**SCENE, "outputs": ["hodograph"], "angles": {"step_deg": 0.9}}
+        assert client.post("/v1/analyze", json=scene).status_code == 200
         sweep = {"base": SCENE, "axes": [{**SPEEDS, "count": 5}], "dry_run": True}
         assert client.post("/v1/sweeps", json=sweep).status_code == 200
         assert client.post("/v1/analyze", content=b" " * 20_001, headers=JSON).status_code == 413

@@ -22,9 +22,9 @@ OTHERS = (
 
 
 def test_tasks_come_as_they_were_said() -> None:
-    said = [(task, priority) for task in (PLAIN, *OTHERS, PLAIN) for priority in Priority]
-    stream = io.BytesIO(b"".join(task.serialize(priority) for task, priority in said))
-    assert [Task.receive(stream) for _ in said] == said
+    values = [(task, priority) for task in (PLAIN, *OTHERS, PLAIN) for priority in Priority]
+    stream = io.BytesIO(b"".join(task.serialize(priority) for task, priority in values))
+    assert [Task.receive(stream) for _ in values] == values
 
 
 @pytest.mark.parametrize("left", [0, 5, 20, 1000])

@@ -30,9 +30,9 @@ class Clock:
 class FairQueue(_Turns):
     """With a clock of its own, which stands."""
 
-    def __init__(self, size: int, waiting: int, each: int, above: int = ABOVE) -> None:
+    def __init__(self, size: int, waiting: int, count: int, above: int = ABOVE) -> None:
         self.clock = Clock()
-        super().__init__(Share("turn", size, size, 1, above), Share("place", each, waiting), self.clock)
+        super().__init__(Share("turn", size, size, 1, above), Share("place", count, waiting), self.clock)
 
 
 async def settled() -> None:
@@ -41,7 +41,7 @@ async def settled() -> None:
         await anyio.lowlevel.checkpoint()
 
 
-class Asked:
+class Queue:
     """Turns that are asked for in order, each ended by hand."""
 
     def __init__(self, turns: FairQueue, group: anyio.abc.TaskGroup) -> None:
@@ -78,46 +78,46 @@ class Asked:
             await settled()
 
 
-def play(turns: FairQueue, story: object) -> Asked:
-    found: list[Asked] = []
+def play(turns: FairQueue, story: object) -> Queue:
+    rungs: list[Queue] = []
 
     async def tell() -> None:
         async with anyio.create_task_group() as group:
-            found.append(Asked(turns, group))
-            await story(found[0])  # type: ignore[operator]
+            rungs.append(Queue(turns, group))
+            await story(rungs[0])  # type: ignore[operator]
             group.cancel_scope.cancel()
 
     anyio.run(tell)
     assert turns.waiting == 0
-    return found[0]
+    return rungs[0]
 
 
 def test_owners_take_turns() -> None:
-    async def story(asked: Asked) -> None:
+    async def story(rung: Queue) -> None:
         for name in ("a1", "b1", "a2", "a3", "a4", "b2", "b3"):
-            await asked.ask(name)
+            await rung.ask(name)
         # b1 is above the size, as b has none
-        assert asked.begun == ["a1", "b1"]
-        await asked.end("a1", "b1", "a2", "b2", "a3", "b3")
-        assert asked.begun[2:] == ["a2", "b2", "a3", "b3", "a4"]
+        assert rung.begun == ["a1", "b1"]
+        await rung.end("a1", "b1", "a2", "b2", "a3", "b3")
+        assert rung.begun[2:] == ["a2", "b2", "a3", "b3", "a4"]
 
     play(FairQueue(1, 10, 10), story)
 
 
 def test_who_has_nothing_begins_at_once_though_another_one_has_everything() -> None:
-    async def story(asked: Asked) -> None:
+    async def story(rung: Queue) -> None:
         for k in range(10):
-            await asked.ask(f"a{k}")
-        await asked.ask("b0")
-        assert asked.begun == ["a0", "a1", "b0"]
-        await asked.ask("b1")
+            await rung.ask(f"a{k}")
+        await rung.ask("b0")
+        assert rung.begun == ["a0", "a1", "b0"]
+        await rung.ask("b1")
         # b has one
-        assert asked.begun == ["a0", "a1", "b0"]
-        await asked.end("a0", after_s=1.0)
+        assert rung.begun == ["a0", "a1", "b0"]
+        await rung.end("a0", after_s=1.0)
         # a has had twice as much
-        assert asked.begun[3:] == ["b1"]
-        await asked.end("a1", after_s=1.0)
-        assert asked.begun[4:] == ["a2"]
+        assert rung.begun[3:] == ["b1"]
+        await rung.end("a1", after_s=1.0)
+        assert rung.begun[4:] == ["a2"]
 
     play(FairQueue(2, 20, 20), story)
 
@@ -125,16 +125,16 @@ def test_who_has_nothing_begins_at_once_though_another_one_has_everything() -> N
 def test_who_asks_without_end_gives_way_as_long_as_another_computes() -> None:
     turns = FairQueue(2, 20, 20)
 
-    async def story(_: Asked) -> None:
-        busy, later, other = turns.turn("a"), turns.turn("a"), turns.turn("b")
+    async def story(_: Queue) -> None:
+        busy, later, turn = turns.turn("a"), turns.turn("a"), turns.turn("b")
         turns.ask(busy)
         turns.clock.seconds += 5.0
         busy.end()
         turns.ask(later)
         assert (later.seldom, turns.gives_way(later)) == (False, False)
-        turns.ask(other)
-        assert (other.seldom, turns.gives_way(other), turns.gives_way(later)) == (True, False, True)
-        other.end()
+        turns.ask(turn)
+        assert (turn.seldom, turns.gives_way(turn), turns.gives_way(later)) == (True, False, True)
+        turn.end()
         assert not turns.gives_way(later)
         later.end()
 
@@ -142,81 +142,81 @@ def test_who_asks_without_end_gives_way_as_long_as_another_computes() -> None:
 
 
 def test_owners_who_ask_without_end_leave_two_to_who_asks_now_and_then() -> None:
-    async def story(asked: Asked) -> None:
+    async def story(rung: Queue) -> None:
         for name in ("a0", "b0", "c0", "a1", "b1", "c1", "a2", "b2", "c2"):
-            await asked.ask(name)
+            await rung.ask(name)
         # nobody has had more than c
-        assert asked.begun == ["a0", "b0", "c0"]
-        await asked.end("c0", after_s=10.0)
+        assert rung.begun == ["a0", "b0", "c0"]
+        await rung.end("c0", after_s=10.0)
         # c has none now, but has had as much as a and b
-        assert asked.begun[3:] == []
+        assert rung.begun[3:] == []
         for name in ("d0", "e0", "f0"):
-            await asked.ask(name)
-        assert asked.begun[3:] == ["d0", "e0"]
-        await asked.end("d0", after_s=0.1)
-        assert asked.begun[5:] == ["f0"]
-        await asked.end("a0", after_s=0.1)
+            await rung.ask(name)
+        assert rung.begun[3:] == ["d0", "e0"]
+        await rung.end("d0", after_s=0.1)
+        assert rung.begun[5:] == ["f0"]
+        await rung.end("a0", after_s=0.1)
         # what a had is none of the two, which e and f have
-        assert asked.begun[6:] == ["c1"]
-        await asked.end("e0", "f0", after_s=0.1)
+        assert rung.begun[6:] == ["c1"]
+        await rung.end("e0", "f0", after_s=0.1)
         # a has none now, and had none for a moment
-        assert asked.begun[7:] == []
+        assert rung.begun[7:] == []
 
     play(FairQueue(2, 20, 20), story)
 
 
 def test_who_wants_several_in_its_first_moments_has_none_of_those_turns() -> None:
-    async def story(asked: Asked) -> None:
+    async def story(rung: Queue) -> None:
         for name in ("a0", "b0", "c0", "d0", "c1", "c2", "d1"):
-            await asked.ask(name)
-        assert asked.begun == ["a0", "b0", "c0", "d0"]
-        await asked.end("c0", "d0", after_s=0.01)
+            await rung.ask(name)
+        assert rung.begun == ["a0", "b0", "c0", "d0"]
+        await rung.end("c0", "d0", after_s=0.01)
         # c and d are as new, but c wants two
-        assert asked.begun[4:] == ["d1"]
-        await asked.ask("e0")
-        assert asked.begun[5:] == ["e0"]
+        assert rung.begun[4:] == ["d1"]
+        await rung.ask("e0")
+        assert rung.begun[5:] == ["e0"]
 
     play(FairQueue(2, 20, 20), story)
 
 
 def test_who_has_had_least_is_next() -> None:
-    async def story(asked: Asked) -> None:
+    async def story(rung: Queue) -> None:
         for name in ("a0", "b0", "a1", "a2", "b1", "b2"):
-            await asked.ask(name)
-        await asked.end("a0", after_s=0.2)
-        await asked.end("b0", after_s=0.4)
-        assert asked.begun == ["a0", "b0", "a1"]
-        await asked.end("a1", after_s=0.5)
+            await rung.ask(name)
+        await rung.end("a0", after_s=0.2)
+        await rung.end("b0", after_s=0.4)
+        assert rung.begun == ["a0", "b0", "a1"]
+        await rung.end("a1", after_s=0.5)
         # a has had 0.7 s, b 0.5 s with its next one: it is before a, though it began last
-        await asked.end("b1", after_s=0.1)
-        assert asked.begun[3:] == ["b1", "b2"]
-        await asked.end("b2", after_s=0.1)
-        assert asked.begun[5:] == ["a2"]
+        await rung.end("b1", after_s=0.1)
+        assert rung.begun[3:] == ["b1", "b2"]
+        await rung.end("b2", after_s=0.1)
+        assert rung.begun[5:] == ["a2"]
 
     play(FairQueue(1, 10, 10, above=0), story)
 
 
 def test_nobody_waits_for_ever_however_many_come() -> None:
-    async def story(asked: Asked) -> None:
+    async def story(rung: Queue) -> None:
         for name in ("a0", "b0", "c0", "a1"):
-            await asked.ask(name)
+            await rung.ask(name)
         # somebody who has had nothing comes before every end
         for ends, comes in zip("bacde", "defgh", strict=True):
-            await asked.ask(f"{comes}0")
-            await asked.end(f"{ends}0", after_s=0.5)
+            await rung.ask(f"{comes}0")
+            await rung.end(f"{ends}0", after_s=0.5)
         # after two seconds without any a is before h
-        assert asked.begun == ["a0", "b0", "c0", "d0", "e0", "f0", "g0", "a1"]
+        assert rung.begun == ["a0", "b0", "c0", "d0", "e0", "f0", "g0", "a1"]
 
     play(FairQueue(1, 20, 20), story)
 
 
 def test_a_place_that_was_given_up_leaves_nothing_behind() -> None:
-    async def story(asked: Asked) -> None:
+    async def story(rung: Queue) -> None:
         for name in ("a0", "a1", "a2", "b0", "b1", "c0", "c1"):
-            await asked.ask(name)
+            await rung.ask(name)
         for name in ("a0", "b0", "c0", "a1", "b1", "c1"):
-            if name in asked.begun:
-                await asked.end(name, after_s=1.0)
+            if name in rung.begun:
+                await rung.end(name, after_s=1.0)
 
     turns = FairQueue(1, 2, 2)
     play(turns, story)
@@ -224,25 +224,25 @@ def test_a_place_that_was_given_up_leaves_nothing_behind() -> None:
 
 
 def test_an_owner_has_its_share_of_the_places_and_gives_up_the_last_to_others() -> None:
-    async def story(asked: Asked) -> None:
+    async def story(rung: Queue) -> None:
         for k in range(6):
-            await asked.ask(f"a{k}")
-        assert asked.refused == ["a5"]
+            await rung.ask(f"a{k}")
+        assert rung.refused == ["a5"]
         for name in ("b0", "b1", "c0", "c1", "c2"):
-            await asked.ask(name)
+            await rung.ask(name)
         # b0 and c0 begin, as b and c have none; b1 and c1 take the places that a has last; c2 would be as many as a has
-        assert asked.refused == ["a5", "a4", "a3", "c2"]
+        assert rung.refused == ["a5", "a4", "a3", "c2"]
 
     play(FairQueue(1, 4, 4), story)
 
 
 def test_none_above_the_size_where_there_are_none() -> None:
-    async def story(asked: Asked) -> None:
+    async def story(rung: Queue) -> None:
         for name in ("a0", "b0", "b1", "c0"):
-            await asked.ask(name)
-        assert asked.begun == ["a0"]
-        await asked.end("a0", "b0", after_s=1.0)
-        assert asked.begun[1:] == ["b0", "c0"]
+            await rung.ask(name)
+        assert rung.begun == ["a0"]
+        await rung.end("a0", "b0", after_s=1.0)
+        assert rung.begun[1:] == ["b0", "c0"]
 
     play(FairQueue(1, 4, 4, above=0), story)
 
@@ -271,10 +271,10 @@ def test_a_turn_is_had_step_by_step() -> None:
 
 
 def test_nobody_waits_where_nobody_may() -> None:
-    async def story(asked: Asked) -> None:
-        await asked.ask("a0")
-        await asked.ask("a1")
-        assert asked.refused == ["a1"]
+    async def story(rung: Queue) -> None:
+        await rung.ask("a0")
+        await rung.ask("a1")
+        assert rung.refused == ["a1"]
 
     play(FairQueue(1, 0, 0), story)
 
@@ -297,55 +297,55 @@ def test_who_goes_away_leaves_no_place_taken() -> None:
 def test_everybody_is_served_or_refused_and_never_more_than_there_are(steps: list[tuple[str, bool]], size: int) -> None:
     turns = FairQueue(size, 6, 4)
 
-    async def story(asked: Asked) -> None:
+    async def story(rung: Queue) -> None:
         open_turns: list[str] = []
         for index, (owner, end) in enumerate(steps):
-            await asked.ask(f"{owner}{index}")
-            open_turns = [name for name in asked.begun if not asked._ends[name].is_set()]
+            await rung.ask(f"{owner}{index}")
+            open_turns = [name for name in rung.begun if not rung._ends[name].is_set()]
             assert len(open_turns) <= size + ABOVE
             assert turns.waiting <= 6
             if end and open_turns:
-                await asked.end(open_turns[0])
-        while left := [name for name in asked.begun if not asked._ends[name].is_set()]:
-            await asked.end(left[0])
-        assert Counter([*asked.begun, *asked.refused]) == Counter(f"{o}{k}" for k, (o, _) in enumerate(steps))
+                await rung.end(open_turns[0])
+        while left := [name for name in rung.begun if not rung._ends[name].is_set()]:
+            await rung.end(left[0])
+        assert Counter([*rung.begun, *rung.refused]) == Counter(f"{o}{k}" for k, (o, _) in enumerate(steps))
 
     play(turns, story)
 
 
-@pytest.mark.parametrize(("each", "long_s"), [(1, 0.025), (8, 0.025), (8, 0.5), (8, 2.0)])
-def test_a_bystander_never_waits_for_owners_who_ask_without_end(each: int, long_s: float) -> None:
+@pytest.mark.parametrize(("count", "long_s"), [(1, 0.025), (8, 0.025), (8, 0.5), (8, 2.0)])
+def test_a_bystander_never_waits_for_owners_who_ask_without_end(count: int, long_s: float) -> None:
     """Whether they ask for all at once, or for the next when they have the last; or those of one of them take long."""
 
-    async def story(asked: Asked) -> None:
+    async def story(rung: Queue) -> None:
         numbers, ends = itertools.count(), list[tuple[float, str]]()
         waits: list[str] = []
 
         async def ask(owner: str) -> str:
             name = f"{owner}{next(numbers)}"
-            await asked.ask(name)
+            await rung.ask(name)
             return name
 
-        for owner in "abcd" * each:
+        for owner in "abcd" * count:
             await ask(owner)
         # 25 ms of every one of theirs, or longer of a, 8 ms of his, every 60 ms from when they have pressed for 2 s
-        seen, asks, comes = 0, 0, 2.0
+        actual_count, asks, comes = 0, 0, 2.0
         while comes < 4.0:
-            for name in asked.begun[seen:]:
+            for name in rung.begun[actual_count:]:
                 takes_s = {"a": long_s, "e": 0.008}.get(name[0], 0.025)
-                heapq.heappush(ends, (asked.turns.clock() + takes_s, name))
-            seen = len(asked.begun)
+                heapq.heappush(ends, (rung.turns.clock() + takes_s, name))
+            actual_count = len(rung.begun)
             if comes <= ends[0][0]:
-                asked.turns.clock.seconds = comes
+                rung.turns.clock.seconds = comes
                 name = await ask("e")
-                waits += [] if name in asked.begun else [name]
+                waits += [] if name in rung.begun else [name]
                 asks, comes = asks + 1, comes + 0.06
                 continue
             at, name = heapq.heappop(ends)
-            await asked.end(name, after_s=at - asked.turns.clock())
+            await rung.end(name, after_s=at - rung.turns.clock())
             if name[0] != "e":
                 await ask(name[0])
-        begun = Counter(name[0] for name in asked.begun)
+        begun = Counter(name[0] for name in rung.begun)
         assert begun["e"] == asks == 34
         assert waits == []
         if long_s > 0.025:
@@ -358,13 +358,13 @@ def test_a_bystander_never_waits_for_owners_who_ask_without_end(each: int, long_
 
 
 def test_who_waited_once_does_not_wait_ever_longer() -> None:
-    async def story(asked: Asked) -> None:
+    async def story(rung: Queue) -> None:
         # all turns are those of others who are new, for three seconds in which he waits
         for name in ("a0", "b0", "c0", "d0", "a1", "b1", "a2", "b2", "z0"):
-            await asked.ask(name)
-        assert asked.begun == ["a0", "b0", "c0", "d0"]
-        await asked.end("c0", after_s=3.0)
-        assert asked.begun[4:] == ["z0"]
+            await rung.ask(name)
+        assert rung.begun == ["a0", "b0", "c0", "d0"]
+        await rung.end("c0", after_s=3.0)
+        assert rung.begun[4:] == ["z0"]
 
     play(FairQueue(2, 100, 64), story)
 
@@ -376,37 +376,37 @@ def test_a_bystander_of_six_never_waits_on_a_machine_with_other_work(slow: float
     Theirs may compute as little as his, where a lower priority gives them no more of a core.
     """
 
-    async def story(asked: Asked) -> None:
+    async def story(rung: Queue) -> None:
         numbers, ends = itertools.count(), list[tuple[float, str]]()
         waits: list[str] = []
 
         async def ask(owner: str) -> str:
             name = f"{owner}{next(numbers)}"
-            asked.computed_s[name] = {"z": 0.008}.get(owner, theirs_s)
-            await asked.ask(name)
+            rung.computed_s[name] = {"z": 0.008}.get(owner, theirs_s)
+            await rung.ask(name)
             return name
 
         for owner in "abcdef" * 8:
             await ask(owner)
         # 100 ms or more of every one of theirs, 8 ms of his, every 150 ms from when they have pressed for 2 s
-        seen, comes = 0, 2.0
+        count, comes = 0, 2.0
         while comes < 8.0:
-            for name in asked.begun[seen:]:
+            for name in rung.begun[count:]:
                 lasts_s = slow * {"z": 0.008}.get(name[0], 0.1)
-                heapq.heappush(ends, (asked.turns.clock() + lasts_s, name))
-            seen = len(asked.begun)
+                heapq.heappush(ends, (rung.turns.clock() + lasts_s, name))
+            count = len(rung.begun)
             if comes <= ends[0][0]:
-                asked.turns.clock.seconds = comes
+                rung.turns.clock.seconds = comes
                 name = await ask("z")
-                waits += [] if name in asked.begun else [name]
+                waits += [] if name in rung.begun else [name]
                 comes += 0.15
                 continue
             at, name = heapq.heappop(ends)
-            await asked.end(name, after_s=at - asked.turns.clock())
+            await rung.end(name, after_s=at - rung.turns.clock())
             if name[0] != "z":
                 await ask(name[0])
         assert waits == []
-        begun = Counter(name[0] for name in asked.begun)
+        begun = Counter(name[0] for name in rung.begun)
         assert begun["z"] == 40
         assert max(begun[owner] for owner in "abcdef") - min(begun[owner] for owner in "abcdef") <= 3
 

@@ -21,8 +21,8 @@ Ask = Callable[..., Any]
 def asks(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Callable[[str], Ask]]:
     """How an address asks, with a key of the portal and for a user."""
     folder = tmp_path_factory.mktemp("portal")
-    made = {name: keys.make(name, scopes) for name, scopes in (("portal", ("sweeps", "read")), ("root", ("admin",)))}
-    keys.write(folder / "keys", [record for _, record in made.values()])
+    fields = {name: keys.make(name, scopes) for name, scopes in (("portal", ("sweeps", "read")), ("root", ("admin",)))}
+    keys.write(folder / "keys", [record for _, record in fields.values()])
     settings = Settings(
         keys_file=folder / "keys",
         data_dir=folder / "data",
@@ -34,10 +34,10 @@ def asks(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Callable[[str], A
     def of(address: str) -> Ask:
         client = TestClient(app, client=(address, 40_000))
 
-        def ask(user: str | None, method: str, path: str, key: str = "portal", **given: Any) -> Any:
-            headers = {"X-API-Key": made[key][0], **given.pop("headers", {})}
+        def ask(user: str | None, method: str, path: str, key: str = "portal", **options: Any) -> Any:
+            headers = {"X-API-Key": fields[key][0], **options.pop("headers", {})}
             named = {} if user is None else {"X-Portal-User": user}
-            return client.request(method, path, headers={**headers, **named}, **given)
+            return client.request(method, path, headers={**headers, **named}, **options)
 
         return ask
 
@@ -53,26 +53,26 @@ def job(asks: Callable[[str], Ask]) -> str:
     return str(started.headers["location"])
 
 
-def seen(ask: Ask, user: str | None, job: str, key: str = "portal") -> tuple[bool, bool]:
+def visibility(ask: Ask, user: str | None, job: str, key: str = "portal") -> tuple[bool, bool]:
     """Whether a user is answered about a job, and has it in the list."""
-    listed = [one["links"]["self"] for one in ask(user, "GET", "/v1/sweeps", key).json()["sweeps"]]
+    listed = [sweep["links"]["self"] for sweep in ask(user, "GET", "/v1/sweeps", key).json()["sweeps"]]
     return ask(user, "GET", job, key).status_code == 200, job in listed
 
 
 def test_a_user_sees_their_jobs_and_no_others(asks: Callable[[str], Ask], job: str) -> None:
     ask = asks(PROXY)
-    assert seen(ask, "alice", job) == (True, True)
-    assert seen(ask, "bob", job) == (False, False)
+    assert visibility(ask, "alice", job) == (True, True)
+    assert visibility(ask, "bob", job) == (False, False)
     assert ask("bob", "DELETE", job).status_code == 404
     # the portal itself, for none of its users
-    assert seen(ask, None, job) == (False, False)
-    assert seen(ask, None, job, "root") == (True, True)
+    assert visibility(ask, None, job) == (False, False)
+    assert visibility(ask, None, job, "root") == (True, True)
     # of another owner, and what the key of an administrator may see is not what a user may
-    assert seen(ask, "alice", job, "root") == (False, False)
+    assert visibility(ask, "alice", job, "root") == (False, False)
 
 
 def test_nobody_but_a_trusted_proxy_names_users(asks: Callable[[str], Ask], job: str) -> None:
-    assert seen(asks(STRANGER), "alice", job) == (False, False)
+    assert visibility(asks(STRANGER), "alice", job) == (False, False)
     # it is the connection that counts, not what is said of whom it was forwarded for
     statuses = [
         asks(address)("alice", "GET", job, headers={"X-Forwarded-For": of}).status_code
@@ -83,9 +83,9 @@ def test_nobody_but_a_trusted_proxy_names_users(asks: Callable[[str], Ask], job:
 
 @pytest.mark.parametrize("user", ["", "a b", "ü".encode(), "x" * 129, "a\x7f"])
 def test_a_name_that_is_none_is_refused(asks: Callable[[str], Ask], user: Any) -> None:
-    found = asks(PROXY)(user, "GET", "/v1/sweeps")
-    assert (found.status_code, found.json()["type"]) == (422, "/problems/invalid-header")
-    assert "X-Portal-User" in found.json()["detail"]
+    response = asks(PROXY)(user, "GET", "/v1/sweeps")
+    assert (response.status_code, response.json()["type"]) == (422, "/problems/invalid-header")
+    assert "X-Portal-User" in response.json()["detail"]
 
 
 def test_without_the_setting_the_header_is_nothing(tmp_path: Path) -> None:

@@ -25,11 +25,11 @@ from tests.network.test_length import SAMPLED
 
 
 def test_it_answers(pool: Pool) -> None:
-    [found] = run(pool, task(tasks.quick))
-    assert isinstance(found, Answer)
-    assert b'"title":"t"' in found.content
-    assert found.certified is None
-    assert found.resident > 10_000_000
+    [answer] = run(pool, task(tasks.quick))
+    assert isinstance(answer, Answer)
+    assert b'"title":"t"' in answer.content
+    assert answer.certified is None
+    assert answer.resident > 10_000_000
 
 
 def test_a_turn_counts_for_what_its_worker_computed(pool: Pool) -> None:
@@ -41,8 +41,8 @@ def test_a_turn_counts_for_what_its_worker_computed(pool: Pool) -> None:
 def test_what_turns_out_to_be_long_gives_its_turn_back(pool: Pool, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("service.fairness.length.BRIEF_S", 0.1)
     # it goes on where it is, as nobody else is long
-    [found] = run(pool, task(tasks.slow))
-    assert isinstance(found, Answer)
+    [answer] = run(pool, task(tasks.slow))
+    assert isinstance(answer, Answer)
     assert (pool.counts.moved_long, pool.counts.begun_anew) == (1, 0)
     assert (pool.running, pool.queued) == (0, 0)
 
@@ -92,7 +92,7 @@ def test_no_number_of_long_ones_keeps_another_client_waiting(monkeypatch: pytest
 def test_what_a_worker_finds_to_be_long_waits_for_the_long_ones(pool: Pool) -> None:
     handed_back = replace(task(tasks.quick), body=SAMPLED)
 
-    async def beside_a_long_one() -> None:
+    async def beside_a_long_task() -> None:
         async with anyio.create_task_group() as group:
             group.start_soon(pool.run, task(tasks.endless, long=True), "one")
             group.start_soon(pool.run, handed_back, "two")
@@ -103,9 +103,9 @@ def test_what_a_worker_finds_to_be_long_waits_for_the_long_ones(pool: Pool) -> N
             assert pool.queued == 1
             group.cancel_scope.cancel()
 
-    anyio.run(beside_a_long_one)
-    [found] = run(pool, handed_back)
-    assert isinstance(found, Answer)
+    anyio.run(beside_a_long_task)
+    [answer] = run(pool, handed_back)
+    assert isinstance(answer, Answer)
 
 
 @pytest.mark.parametrize("waits", [False, True])
@@ -126,8 +126,8 @@ def test_a_task_that_takes_too_long_is_ended_with_its_worker(pool: Pool) -> None
     run(pool, task(tasks.quick))
     before = pool.pids
     pool.timeout_s = 0.5
-    found = run(pool, task(tasks.endless), task(tasks.endless))
-    assert [each.computing for each in found if isinstance(each, TooSlow)] == [True, True]
+    answers = run(pool, task(tasks.endless), task(tasks.endless))
+    assert [answer.computing for answer in answers if isinstance(answer, TooSlow)] == [True, True]
     assert not set(before) & set(pool.pids)
     assert pool.counts.ended_late == 2
     pool.timeout_s = 180
@@ -152,11 +152,11 @@ def test_a_task_that_waits_too_long_is_not_begun(pool: Pool) -> None:
 
 def test_more_than_may_wait_are_refused_at_once(pool: Pool) -> None:
     run(pool, task(tasks.quick), task(tasks.quick))
-    found = run(pool, *[task(tasks.slow)] * 6)
-    refused = [each for each in found if isinstance(each, Busy)]
+    answers = run(pool, *[task(tasks.slow)] * 6)
+    refused = [answer for answer in answers if isinstance(answer, Busy)]
     assert len(refused) == 2
-    assert all(each.retry_after_s >= 1 for each in refused)
-    assert sum(isinstance(each, Answer) for each in found) == 4
+    assert all(busy.retry_after_s >= 1 for busy in refused)
+    assert sum(isinstance(answer, Answer) for answer in answers) == 4
     assert (pool.running, pool.queued) == (0, 0)
 
 
@@ -207,33 +207,33 @@ def test_a_worker_that_was_ended_is_replaced_before_anybody_needs_it(pool: Pool)
 
 
 def test_a_task_that_takes_too_much_memory_is_refused_alone(pool: Pool) -> None:
-    hungry, other = run(pool, task(tasks.hungry), task(tasks.slow))
+    hungry, answer = run(pool, task(tasks.hungry), task(tasks.slow))
     assert isinstance(hungry, Refused)
     assert isinstance(hungry.error, OutOfMemory)
-    assert isinstance(other, Answer)
+    assert isinstance(answer, Answer)
 
 
 def test_a_fault_says_where_and_apart_what(pool: Pool) -> None:
-    [found] = run(pool, task(tasks.faulty, "7021962"))
-    assert isinstance(found, Crashed)
-    assert "tasks.py" in found.trace
-    assert "RuntimeError" in found.trace
-    assert "7021962" not in found.trace
-    assert "7021962" in found.message
+    [answer] = run(pool, task(tasks.faulty, "7021962"))
+    assert isinstance(answer, Crashed)
+    assert "tasks.py" in answer.trace
+    assert "RuntimeError" in answer.trace
+    assert "7021962" not in answer.trace
+    assert "7021962" in answer.message
 
 
 def test_a_worker_that_dies_is_replaced_and_its_task_done_again(pool: Pool) -> None:
     # a name of a machine is shorter than pytest's own folders
     with TemporaryDirectory() as folder:
-        [found] = run(pool, task(tasks.deadly_once, f"{folder}/x"))
-    assert isinstance(found, Answer)
+        [answer] = run(pool, task(tasks.deadly_once, f"{folder}/x"))
+    assert isinstance(answer, Answer)
     assert pool.counts.died == 1
 
 
 def test_a_task_that_kills_its_workers_is_given_up(pool: Pool) -> None:
-    deadly, other = run(pool, task(tasks.deadly), task(tasks.slow))
+    deadly, answer = run(pool, task(tasks.deadly), task(tasks.slow))
     assert isinstance(deadly, WorkerDied)
-    assert isinstance(other, Answer)
+    assert isinstance(answer, Answer)
     assert pool.counts.died == 2
 
 
@@ -268,9 +268,9 @@ def test_a_large_answer_comes_in_a_file_that_is_gone_when_it_is_read(pool: Pool,
 def test_a_large_answer_that_finds_no_room_is_refused(pool: Pool, tmp_path: Path) -> None:
     (tmp_path / "file").touch()
     pool.folder = tmp_path / "file" / "folder"
-    [found] = run(pool, task(tasks.large))
-    assert isinstance(found, Refused)
-    assert isinstance(found.error, NoRoom)
+    [answer] = run(pool, task(tasks.large))
+    assert isinstance(answer, Refused)
+    assert isinstance(answer.error, NoRoom)
     assert isinstance(run(pool, task(tasks.quick))[0], Answer)
 
 

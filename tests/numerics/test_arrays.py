@@ -12,9 +12,9 @@ from optimizer.numerics.arrays import all_true, any_true, read_only, total
 @given(arrays.arrays(bool, arrays.array_shapes(min_dims=0, max_dims=3, min_side=0, max_side=5)), st.booleans())
 def test_masks_are_as_numpy_reduces_them(mask: np.ndarray, apart: bool) -> None:
     # independent: numpy's reductions, of masks that lie apart in memory too
-    shown = mask[..., ::2] if apart and mask.ndim else mask
-    assert any_true(shown) is bool(np.any(shown))
-    assert all_true(shown) is bool(np.all(shown))
+    actual_mask = mask[..., ::2] if apart and mask.ndim else mask
+    assert any_true(actual_mask) is bool(np.any(actual_mask))
+    assert all_true(actual_mask) is bool(np.all(actual_mask))
 
 
 def test_a_mask_that_is_spread_is_read_in_full() -> None:

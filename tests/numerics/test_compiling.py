@@ -65,11 +65,11 @@ def test_a_kernel_is_linked_with_one_that_was_kept(tmp_path: Path, monkeypatch: 
     (tmp_path / "linked_kernels.py").write_text(_LINKED, "utf-8")
     values = np.array([1.0, 2.5])
     # analytic; the second time what was called the first time has been kept
-    for name, factor, kept in (("doubled", 2.0, 0), ("quadrupled", 4.0, 1)):
+    for name, factor, count in (("doubled", 2.0, 0), ("quadrupled", 4.0, 1)):
         monkeypatch.delitem(sys.modules, "linked_kernels", raising=False)
         module = importlib.import_module("linked_kernels")
         assert getattr(module, name)(values).tolist() == (factor * values).tolist()
-        assert sum(module.doubled.stats.cache_hits.values()) == kept
+        assert sum(module.doubled.stats.cache_hits.values()) == count
 
 
 def test_an_answer_reads_nothing_that_only_a_compiler_reads() -> None:

@@ -11,13 +11,13 @@ from optimizer.numerics.four_lists import nearest_sums
 def test_of_few_sums_the_nearest_is_found() -> None:
     """Independent: all sums."""
     lists = list(np.random.default_rng(1).standard_normal((4, 9, 3)))
-    wanted = np.array([0.3, -0.2, 0.1])
-    which = nearest_sums(lists, 0.5 * wanted, wanted)
-    places = product(*(range(len(each)) for each in lists))
-    every = [sum(each[k] for each, k in zip(lists, place, strict=True)) for place in places]
-    best = min(float(np.sum((each - wanted) ** 2)) for each in np.array(every))
-    sums = sum(each[k] for each, k in zip(lists, which, strict=True))
-    assert float(np.min(np.sum((sums - wanted) ** 2, axis=1))) == best
+    values = np.array([0.3, -0.2, 0.1])
+    which = nearest_sums(lists, 0.5 * values, values)
+    places = product(*(range(len(value)) for value in lists))
+    every = [sum(value[k] for value, k in zip(lists, place, strict=True)) for place in places]
+    best = min(float(np.sum((value - values) ** 2)) for value in np.array(every))
+    sums = sum(value[k] for value, k in zip(lists, which, strict=True))
+    assert float(np.min(np.sum((sums - values) ** 2, axis=1))) == best
     assert which.shape == (4, four_lists._NEAREST)
 
 

@@ -46,13 +46,13 @@ def test_a_record_is_made_as_its_dataclass_says() -> None:
 def test_records_are_compared_and_shown_as_dataclasses_are() -> None:
     """Independent: as the standard library has it."""
     plain = make_dataclass("Plain", ["first", "second"], frozen=True)
-    shown = make_dataclass("Shown", ["first", "second"], frozen=True, namespace={"__doc__": "Two."})
-    kept = record(frozen=True)(type("Shown", (), {"__annotations__": {"first": int, "second": int}}))
+    kind = make_dataclass("Shown", ["first", "second"], frozen=True, namespace={"__doc__": "Two."})
+    actual_kind = record(frozen=True)(type("Shown", (), {"__annotations__": {"first": int, "second": int}}))
     for first, second in ((1, 2), (0, "text"), ((), None)):
-        same, other = kept(first, second), kept(first, 7)
-        assert (same == kept(first, second), same == other, same == shown(first, second)) == (True, False, False)
+        same, value = actual_kind(first, second), actual_kind(first, 7)
+        assert (same == actual_kind(first, second), same == value, same == kind(first, second)) == (True, False, False)
         assert hash(same) == hash(plain(first, second))
-        assert repr(same) == repr(shown(first, second))
+        assert repr(same) == repr(kind(first, second))
     assert hash(Pair(1, 2, ())) == hash(Pair(1, 2, ()))  # type: ignore[arg-type]
     with pytest.raises(TypeError, match="unhashable"):
         hash(Pair(1))
@@ -62,9 +62,9 @@ def test_records_are_compared_and_shown_as_dataclasses_are() -> None:
 
 def test_no_two_records_share_what_a_factory_makes() -> None:
     """Analytic."""
-    one, other = Pair(1), Pair(1)
-    one.notes.append("mine")
-    assert other.notes == []
+    pair, second_pair = Pair(1), Pair(1)
+    pair.notes.append("mine")
+    assert second_pair.notes == []
 
 
 def test_an_attribute_is_worked_out_once() -> None:
@@ -83,5 +83,5 @@ def test_a_variant_keeps_nothing_of_what_was_worked_out() -> None:
 
 def test_optima_begin_with_what_solutions_have() -> None:
     """They are made by the order of their fields."""
-    names = [each.name for each in fields(Optima)]
-    assert names[: len(fields(Solutions))] == [each.name for each in fields(Solutions)]
+    names = [single_field.name for single_field in fields(Optima)]
+    assert names[: len(fields(Solutions))] == [single_field.name for single_field in fields(Solutions)]

@@ -12,7 +12,7 @@ from optimizer.numerics.sums import MANY, force_and_couple
 _MACHINES = MANY
 
 
-def _one_by_one(forces: np.ndarray, arm: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+def _separately(forces: np.ndarray, arm: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """The same of one machine at a time, by arrays or in plain numbers."""
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(sums, "_compiler_is_loaded", lambda: False)
@@ -33,8 +33,8 @@ def test_sums_of_many_machines_are_those_of_each(terms: int, many: int, seed: in
     forces[::3] = np.rint(forces[::3])
     arm[::3] = np.rint(arm[::3])
     forces[::4, ..., -1] = -forces[::4, ..., 0]
-    found, expected = force_and_couple(forces, arm), _one_by_one(forces, arm)
-    for ours, theirs in zip(found, expected, strict=True):
+    couple, expected = force_and_couple(forces, arm), _separately(forces, arm)
+    for ours, theirs in zip(couple, expected, strict=True):
         np.testing.assert_array_equal(ours, theirs)
     alone = force_and_couple(forces[0], arm[0])
     for ours, theirs in zip(alone, expected, strict=True):
@@ -45,9 +45,9 @@ def test_sums_of_many_machines_are_those_of_each(terms: int, many: int, seed: in
 def test_arms_of_all_machines_may_be_the_same() -> None:
     forces = np.random.default_rng(0).normal(size=(_MACHINES, 2, 3)).astype(complex)
     arm = np.array([[0.1, 0.2, 0.3]])
-    found = force_and_couple(forces, arm)
-    expected = _one_by_one(forces, np.broadcast_to(arm, (_MACHINES, 1, 3)))
-    for ours, theirs in zip(found, expected, strict=True):
+    couple = force_and_couple(forces, arm)
+    expected = _separately(forces, np.broadcast_to(arm, (_MACHINES, 1, 3)))
+    for ours, theirs in zip(couple, expected, strict=True):
         np.testing.assert_array_equal(ours, theirs)
 
 

@@ -49,18 +49,18 @@ def test_prices_and_multipliers_are_the_gradients(balance: ModuleType, request_2
     problem.run_model()
     checked = problem.check_partials(out_stream=None, form="central", step=1e-3)["balance"]
     for name in ("max_mass", "unbalance"):
-        found = checked["peak", name]
+        peak = checked["peak", name]
         # independent: central differences of the certified optimum
-        assert found["J_fwd"] == pytest.approx(found["J_fd"], rel=1e-4, abs=1e-1), name
-        assert np.max(np.abs(found["J_fwd"])) > 10.0
+        assert peak["J_fwd"] == pytest.approx(peak["J_fd"], rel=1e-4, abs=1e-1), name
+        assert np.max(np.abs(peak["J_fwd"])) > 10.0
 
 
 def test_slsqp_shares_out_what_there_is(balance: ModuleType, request_2d12: dict[str, Any]) -> None:
-    asked: list[float] = []
+    objectives: list[float] = []
 
     def counted(request: dict[str, Any]) -> dict[str, Any]:
         answer = ask(request)
-        asked.append(answer["certificate"]["objective"])
+        objectives.append(answer["certificate"]["objective"])
         return answer
 
     problem = balance.problem(request_2d12, counted, 160.0)
@@ -68,7 +68,7 @@ def test_slsqp_shares_out_what_there_is(balance: ModuleType, request_2d12: dict[
     limits, peak = problem.get_val("max_mass"), problem.get_val("peak")[0]
     assert problem.driver.result.success
     assert np.sum(limits) <= 160.0 * (1 + 1e-6)
-    assert peak < asked[0]
+    assert peak < objectives[0]
     # independent: one budget in place of four limits is the same question, put to the service itself
     webs = [{**web, "max_mass_kg": 160.0} for web in request_2d12["machine"]["webs"]]
     machine = {**request_2d12["machine"], "webs": webs, "max_total_mass_kg": 160.0}

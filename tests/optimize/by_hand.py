@@ -67,13 +67,13 @@ def machine(body: JSON, reference_plane: float) -> Machine:
                 slides(mass, radius, angle, row["axis_deg"], own)
     else:
         guide, radius = body["anti_rotation"], mp.mpf(body["orbit_radius_m"])
-        place, other = mp.mpf(body["orbiting_position_m"]), mp.mpf(guide["position_m"])
-        planes = [place, other]
+        place, value = mp.mpf(body["orbiting_position_m"]), mp.mpf(guide["position_m"])
+        planes = [place, value]
         co.append((body["orbiting_mass_kg"] * radius, place))
         if guide["type"] == "oldham":
-            slides(guide["mass_kg"], radius, 0, guide["axis_deg"], other)
+            slides(guide["mass_kg"], radius, 0, guide["axis_deg"], value)
         else:
-            co.append((guide["count"] * mp.mpf(guide["eccentric_mass_kg"]) * radius, other))
+            co.append((guide["count"] * mp.mpf(guide["eccentric_mass_kg"]) * radius, value))
     reference = mp.mpf(reference_plane)
     force = Phasors(mp.fsum(f for f, _ in co), mp.fsum(b for b, _ in counter))
     moment = Phasors(mp.fsum((z - reference) * f for f, z in co), mp.fsum((z - reference) * b for b, z in counter))
@@ -95,10 +95,10 @@ def machine(body: JSON, reference_plane: float) -> Machine:
 
 def weights(body: JSON, objective: JSON, reference_plane: float) -> dict[str, mpf]:
     """w_F and w_M, with the default 1/L."""
-    given = objective["moment_weight"]
+    moment_weight = objective["moment_weight"]
     return {
         "force": mp.mpf(objective["force_weight"]),
-        "moment": 1 / machine(body, reference_plane).span if given is None else mp.mpf(given),
+        "moment": 1 / machine(body, reference_plane).span if moment_weight is None else mp.mpf(moment_weight),
     }
 
 
@@ -122,17 +122,17 @@ def bound(
     mass_cost : 0 in a bound on the objective, 1 in one on the mass.
     reaches : implied limits of webs without one, kg.
     """
-    made = machine(body, reference_plane)
-    square = made.square
-    slope = [mp.mpc(0)] * len(made.webs)
+    design = machine(body, reference_plane)
+    square = design.square
+    slope = [mp.mpc(0)] * len(design.webs)
     rows = {row["name"]: mp.mpf(row["value"]) for row in multipliers["rows"]}
     constant = mp.mpf(0)
-    wx, wy = (mp.mpf(each) for each in across)
+    wx, wy = (mp.mpf(value) for value in across)
     if multipliers["terms"]:
         for name, factor in weight.items():
             if wx == wy and factor > 0:
                 row = rows[next(term["row"] for term in multipliers["terms"] if term["response"] == name)]
-                constant += row * factor * wx * abs(made.responses[name].counter) * square
+                constant += row * factor * wx * abs(design.responses[name].counter) * square
     for term in multipliers["terms"]:
         name = term["response"]
         p, q = weight[name] * (wx + wy) / 2, weight[name] * (wx - wy) / 2
@@ -140,28 +140,28 @@ def bound(
             p, q = q, p
         y = mp.mpc(term["x"], term["y"])
         assert abs(y) <= rows[term["row"]]
-        f, b = made.responses[name]
+        f, b = design.responses[name]
         constant += mp.re(mp.conj(y) * (p * f + q * mp.conj(b))) * square
-        slope = [w + p * arm * y * square for w, arm in zip(slope, made.arms[name], strict=True)]
+        slope = [w + p * arm * y * square for w, arm in zip(slope, design.arms[name], strict=True)]
     for ceiling in multipliers["ceilings"]:
         name, price = ceiling["response"], mp.mpc(ceiling["x"], ceiling["y"])
-        f, b = made.responses[name]
+        f, b = design.responses[name]
         cap = mp.mpf((ceilings or {})[name]) - abs(b) * square
         length = abs(price)
         if not multipliers["terms"]:
             assert length <= rows[name]
             length = rows[name]
         constant += mp.re(mp.conj(price) * f) * square - length * cap
-        slope = [w + arm * price * square for w, arm in zip(slope, made.arms[name], strict=True)]
+        slope = [w + arm * price * square for w, arm in zip(slope, design.arms[name], strict=True)]
     beta = mp.mpf(multipliers["budget"])
-    assert made.budget is not None or beta == 0
+    assert design.budget is not None or beta == 0
     total = constant
-    for web, w in zip(made.webs, slope, strict=True):
+    for web, w in zip(design.webs, slope, strict=True):
         most = web["max_mass_kg"] if web["max_mass_kg"] is not None else (reaches or {})[web["name"]]
-        most = mp.mpf(most) if made.budget is None else min(mp.mpf(most), made.budget)
+        most = mp.mpf(most) if design.budget is None else min(mp.mpf(most), design.budget)
         worth = mp.mpf(web["counterweight_radius_m"]) * support(-w, web["sector"])
         total -= most * max(worth - mass_cost - beta, mp.mpf(0))
-    return total - (0 if made.budget is None else beta * made.budget)
+    return total - (0 if design.budget is None else beta * design.budget)
 
 
 def support(g: mpc, sector: JSON | None) -> mpf:
@@ -188,39 +188,41 @@ def of_answer(request: JSON, answer: JSON) -> dict[str, tuple[mpf, float]]:
     plane = answer["reference_plane_m"]
     ceilings = ceilings_of(objective)
     if answer["status"] == "infeasible":
-        told = answer["infeasibility"]
-        proofs = told["multipliers"]
+        infeasibility = answer["infeasibility"]
+        proofs = infeasibility["multipliers"]
         return {
             "conflict": (bound(body, plane, proofs["conflict"], {}, ceilings=ceilings), 0.0),
             "smallest_force": (
                 bound(body, plane, proofs["smallest_force"], {"force": 1}),
-                told["smallest_force_lower_bound_N"],
+                infeasibility["smallest_force_lower_bound_N"],
             ),
             "smallest_moment": (
                 bound(body, plane, proofs["smallest_moment"], {"moment": 1}),
-                told["smallest_moment_lower_bound_Nm"],
+                infeasibility["smallest_moment_lower_bound_Nm"],
             ),
         }
     certificate = answer["certificate"]
     return of_certificate(request, plane, certificate["multipliers"], certificate)
 
 
-def of_certificate(request: JSON, plane: float, proofs: JSON, told: JSON) -> dict[str, tuple[mpf, float]]:
+def of_certificate(request: JSON, plane: float, proofs: JSON, single_bound: JSON) -> dict[str, tuple[mpf, float]]:
     """Both bounds: by hand, and as told."""
     body, objective = request["machine"], request["objective"]
     across, ceilings = directions_of(objective), ceilings_of(objective)
-    weight = {name: each for name, each in weights(body, objective, plane).items() if each > 0}
-    found, reaches = {}, told.get("implied_max_mass_kg")
+    weight = {
+        name: single_weight for name, single_weight in weights(body, objective, plane).items() if single_weight > 0
+    }
+    payload, reaches = {}, single_bound.get("implied_max_mass_kg")
     first = proofs["objective"]
     rows = mp.fsum(row["value"] for row in first["rows"])
     least = bound(body, plane, first, weight, across, ceilings, 0, reaches) / rows
-    if told["lower_bound"] is not None:
-        found["objective"] = least, told["lower_bound"]
-    if proofs["mass"] is not None and told["mass_lower_bound_kg"] is not None:
-        allowed = weighed(proofs["mass"], *[told["mass_objective_limit"]] * len(proofs["mass"]["rows"]))
+    if single_bound["lower_bound"] is not None:
+        payload["objective"] = least, single_bound["lower_bound"]
+    if proofs["mass"] is not None and single_bound["mass_lower_bound_kg"] is not None:
+        allowed = weighed(proofs["mass"], *[single_bound["mass_objective_limit"]] * len(proofs["mass"]["rows"]))
         lightest = bound(body, plane, proofs["mass"], weight, across, ceilings, 1, reaches) - allowed
-        found["mass"] = max(lightest, mp.mpf(0)), told["mass_lower_bound_kg"]
-    return found
+        payload["mass"] = max(lightest, mp.mpf(0)), single_bound["mass_lower_bound_kg"]
+    return payload
 
 
 def weighed(multipliers: JSON, *values: float) -> mpf:
@@ -229,8 +231,8 @@ def weighed(multipliers: JSON, *values: float) -> mpf:
 
 
 def ceilings_of(objective: JSON) -> dict[str, float]:
-    given = {"force": objective["force_ceiling_N"], "moment": objective["moment_ceiling_Nm"]}
-    return {name: ceiling for name, ceiling in given.items() if ceiling is not None}
+    fields = {"force": objective["force_ceiling_N"], "moment": objective["moment_ceiling_Nm"]}
+    return {name: ceiling for name, ceiling in fields.items() if ceiling is not None}
 
 
 def directions_of(objective: JSON) -> tuple[float, float]:
@@ -246,7 +248,7 @@ def of_front(request: JSON, front: JSON, plane: float) -> dict[str, tuple[mpf, f
     objective, ones = request["objective"], {"force": 1, "moment": 1}
     ceilings, across, reaches = ceilings_of(objective), directions_of(objective), front["implied_max_mass_kg"]
     ends = front["ends"]
-    found = {
+    fields = {
         name: (
             bound(body, plane, ends["multipliers"][name], ones, across, ceilings, 0, reaches),
             ends[f"{name}_lower_bound_{unit}"],
@@ -254,15 +256,15 @@ def of_front(request: JSON, front: JSON, plane: float) -> dict[str, tuple[mpf, f
         for name, unit in (("smallest_force", "N"), ("smallest_moment", "Nm"))
     }
     for k, point in enumerate(front["points"]):
-        proofs, told = point["multipliers"], point["certificate"]
-        corner = weighed(proofs["objective"], told["force_N"], told["moment_Nm"])
-        assert told["implied_max_mass_kg"] == reaches
-        found[f"corner {k}"] = bound(body, plane, proofs["objective"], ones, across, ceilings, 0, reaches), corner
+        proofs, certificate = point["multipliers"], point["certificate"]
+        corner = weighed(proofs["objective"], certificate["force_N"], certificate["moment_Nm"])
+        assert certificate["implied_max_mass_kg"] == reaches
+        fields[f"corner {k}"] = bound(body, plane, proofs["objective"], ones, across, ceilings, 0, reaches), corner
         if proofs["mass"] is not None:
-            allowed = weighed(proofs["mass"], told["mass_force_limit_N"], told["mass_moment_limit_Nm"])
+            allowed = weighed(proofs["mass"], certificate["mass_force_limit_N"], certificate["mass_moment_limit_Nm"])
             lightest = bound(body, plane, proofs["mass"], ones, across, ceilings, 1, reaches) - allowed
-            found[f"mass {k}"] = max(lightest, mp.mpf(0)), told["mass_lower_bound_kg"]
-    return found
+            fields[f"mass {k}"] = max(lightest, mp.mpf(0)), certificate["mass_lower_bound_kg"]
+    return fields
 
 
 def of_row(request: JSON, plane: float, row: JSON) -> dict[str, tuple[mpf, float]]:

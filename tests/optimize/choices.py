@@ -33,7 +33,7 @@ def twin(**more: Any) -> dict[str, Any]:
     return machine | more
 
 
-def asked(machine: dict[str, Any], gap: float = 1e-6, **goal: Any) -> dict[str, Any]:
+def request_body(machine: dict[str, Any], gap: float = 1e-6, **goal: Any) -> dict[str, Any]:
     return {
         "machine": machine,
         "objective": goal,
@@ -49,15 +49,15 @@ class Loads:
         bare = {name: value for name, value in machine.items() if name not in ("catalogue", "max_counterweights")}
         bare["webs"] = [{k: v for k, v in web.items() if k != "hole_angles_deg"} for web in machine["webs"]]
         self.bare = bare
-        found = analyze(
+        answer = analyze(
             AnalyzeRequest.model_validate({"machine": bare, "outputs": ["main_bearings"], "angles": {"step_deg": 1}})
         )
-        assert found.main_bearings is not None
-        self.theta = np.deg2rad(found.main_bearings.angle_deg)
+        assert answer.main_bearings is not None
+        self.theta = np.deg2rad(answer.main_bearings.angle_deg)
         self.still = np.array(
             [
-                np.array(one.before.force_x_N) + 1j * np.array(one.before.force_y_N)
-                for one in found.main_bearings.bearings
+                np.array(bearing.before.force_x_N) + 1j * np.array(bearing.before.force_y_N)
+                for bearing in answer.main_bearings.bearings
             ]
         )
         self.square = (machine["speed_rpm"] * np.pi / 30.0) ** 2
@@ -97,22 +97,25 @@ def every_set(
     """Masses and angles of all sets, and their unbalances (sets, webs) kg m."""
     options = [(0.0, 0.0), *product(masses, HOLES)]
     sets = list(product(options, repeat=len(machine["webs"])))
-    each = np.array(sets)
+    actual_sets = np.array(sets)
     radius = np.array([web["counterweight_radius_m"] for web in machine["webs"]])
-    return sets, each[..., 0] * radius * np.exp(1j * np.deg2rad(each[..., 1]))
+    return sets, actual_sets[..., 0] * radius * np.exp(1j * np.deg2rad(actual_sets[..., 1]))
 
 
 def certified(body: dict[str, Any]) -> tuple[OptimizeAnswer, Certificate]:
-    found = sound_answer(body)
-    assert found.status == "optimal", found.status_reason
-    assert found.certificate is not None
-    return found, found.certificate
+    answer = sound_answer(body)
+    assert answer.status == "optimal", answer.status_reason
+    assert answer.certificate is not None
+    return answer, answer.certificate
 
 
-def chosen(found: OptimizeAnswer) -> np.ndarray:
+def chosen(answer: OptimizeAnswer) -> np.ndarray:
     """(1, webs) kg m."""
-    each = [one.mass_kg * 0.12 * np.exp(1j * np.deg2rad(one.angle_deg)) for one in found.counterweights]
-    return np.array([each])
+    masses_kg = [
+        counterweight.mass_kg * 0.12 * np.exp(1j * np.deg2rad(counterweight.angle_deg))
+        for counterweight in answer.counterweights
+    ]
+    return np.array([masses_kg])
 
 
 def two_webs() -> dict[str, Any]:

@@ -83,7 +83,7 @@ def first_order(body: dict[str, Any], weights: list[dict[str, Any]], theta_deg: 
     """
     sense = 1 if body.get("rotation", "ccw") == "ccw" else -1
     omega = body["speed_rpm"] * math.pi / 30
-    planes = [one["position_m"] for one in body["throws"]]
+    planes = [crank["position_m"] for crank in body["throws"]]
     reference = body.get("reference_plane_m")
     reference = 0.5 * (min(planes) + max(planes)) if reference is None else reference
     theta = np.asarray(theta_deg, float)
@@ -96,19 +96,19 @@ def first_order(body: dict[str, Any], weights: list[dict[str, Any]], theta_deg: 
     def turned(angle_deg: float) -> np.ndarray:
         return np.asarray(np.exp(1j * np.radians(angle_deg + sense * theta)))
 
-    for one in body["throws"]:
-        radius, angle, plane = one["crank_radius_m"], one["crank_angle_deg"], one["position_m"]
-        add(one["rotating_mass_kg"] * radius * omega**2 * turned(angle), plane)
-        for each in one["rows"]:
-            rod = each.get("connecting_rod") or {"mass_kg": 0.0}
+    for body_throw in body["throws"]:
+        radius, angle, plane = body_throw["crank_radius_m"], body_throw["crank_angle_deg"], body_throw["position_m"]
+        add(body_throw["rotating_mass_kg"] * radius * omega**2 * turned(angle), plane)
+        for line in body_throw["rows"]:
+            rod = line.get("connecting_rod") or {"mass_kg": 0.0}
             share = rod.get("reciprocating_share", 1 / 3)
-            phi = np.radians(theta + sense * (angle - each["axis_deg"]))
-            moving = each["reciprocating_mass_kg"] + share * rod["mass_kg"]
-            axis = np.exp(1j * np.radians(each["axis_deg"]))
-            own = plane + each.get("offset_m", 0.0)
+            phi = np.radians(theta + sense * (angle - line["axis_deg"]))
+            moving = line["reciprocating_mass_kg"] + share * rod["mass_kg"]
+            axis = np.exp(1j * np.radians(line["axis_deg"]))
+            own = plane + line.get("offset_m", 0.0)
             add(moving * radius * omega**2 * np.cos(phi) * axis, own)
             add((1 - share) * rod["mass_kg"] * radius * omega**2 * turned(angle), own)
-    place = {one["name"]: one for one in body["webs"]}
+    place = {body_web["name"]: body_web for body_web in body["webs"]}
     for weight in weights:
         at = place[weight["web"]]
         size = weight["mass_kg"] * at["counterweight_radius_m"] * omega**2

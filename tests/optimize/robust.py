@@ -10,8 +10,8 @@ from schemas.request.requests import OptimizeRequest
 from tests.optimize.machines import machine, row, throw, web
 
 
-def answered(made: dict[str, Any], **rest: Any) -> OptimizeAnswer:
-    return optimize(OptimizeRequest.model_validate({"machine": made, "angles": {"step_deg": 30}, **rest}))
+def answered(fields: dict[str, Any], **rest: Any) -> OptimizeAnswer:
+    return optimize(OptimizeRequest.model_validate({"machine": fields, "angles": {"step_deg": 30}, **rest}))
 
 
 def scenario(name: str, weight: float = 1.0, **values: Any) -> dict[str, Any]:

@@ -44,33 +44,36 @@ def at(body: dict[str, Any], answer: dict[str, Any], theta_deg: float, first: bo
     """
     s = 1.0 if body.get("rotation", "ccw") == "ccw" else -1.0
     omega, theta = body["speed_rpm"] * math.pi / 30.0, math.radians(theta_deg)
-    planes = [one["position_m"] for one in body["throws"]]
+    planes = [crank["position_m"] for crank in body["throws"]]
     middle = 0.5 * (min(planes) + max(planes))
     pushed: list[tuple[complex, float]] = []
-    for one in body["throws"]:
-        radius, turn = one["crank_radius_m"], cmath.exp(1j * (math.radians(one["crank_angle_deg"]) + s * theta))
-        pushed.append((one["rotating_mass_kg"] * radius * omega**2 * turn, one["position_m"]))
-        for each in one["rows"]:
-            axis = cmath.exp(1j * math.radians(each["axis_deg"]))
-            lam = radius / each["connecting_rod"]["length_m"]
+    for body_throw in body["throws"]:
+        radius, turn = (
+            body_throw["crank_radius_m"],
+            cmath.exp(1j * (math.radians(body_throw["crank_angle_deg"]) + s * theta)),
+        )
+        pushed.append((body_throw["rotating_mass_kg"] * radius * omega**2 * turn, body_throw["position_m"]))
+        for line in body_throw["rows"]:
+            axis = cmath.exp(1j * math.radians(line["axis_deg"]))
+            lam = radius / line["connecting_rod"]["length_m"]
             own = (turn * axis.conjugate()).real, (turn * axis.conjugate()).imag
             w = 1.0 - (lam * own[1]) ** 2
             # second derivative of r cos phi + l cos beta, negated
             true = own[0] + lam * (own[0] ** 2 - own[1] ** 2) / math.sqrt(w)
             true += lam**3 * (own[0] * own[1]) ** 2 / w**1.5
             share = own[0] if first else true
-            pushed.append((each["reciprocating_mass_kg"] * radius * omega**2 * share * axis, one["position_m"]))
+            pushed.append((line["reciprocating_mass_kg"] * radius * omega**2 * share * axis, body_throw["position_m"]))
     turning = [(1, body["webs"], answer["counterweights"])]
     turning += [
-        (one["speed_ratio"], one["webs"], found["counterweights"])
-        for one, found in zip(body["balance_shafts"], answer["balance_shafts"], strict=True)
+        (balance_shaft["speed_ratio"], balance_shaft["webs"], optimum["counterweights"])
+        for balance_shaft, optimum in zip(body["balance_shafts"], answer["balance_shafts"], strict=True)
     ]
     for ratio, places, fitted in turning:
         if first and abs(ratio) != 1:
             continue
-        for place, found in zip(places, fitted, strict=True):
-            angle = math.radians(found["angle_deg"]) + s * ratio * theta
-            size = found["mass_kg"] * place["counterweight_radius_m"] * (ratio * omega) ** 2
+        for place, counterweight in zip(places, fitted, strict=True):
+            angle = math.radians(counterweight["angle_deg"]) + s * ratio * theta
+            size = counterweight["mass_kg"] * place["counterweight_radius_m"] * (ratio * omega) ** 2
             pushed.append((size * cmath.exp(1j * angle), place["position_m"]))
     return sum(force for force, _ in pushed), sum((z - middle) * force for force, z in pushed)
 
@@ -83,24 +86,24 @@ def rolled(body: dict[str, Any], answer: dict[str, Any], theta_deg: float) -> fl
     """
     s = 1.0 if body.get("rotation", "ccw") == "ccw" else -1.0
     omega, theta = body["speed_rpm"] * math.pi / 30.0, math.radians(theta_deg)
-    found = 0.0
-    for one in body["throws"]:
-        radius, turn = one["crank_radius_m"], cmath.exp(1j * (math.radians(one["crank_angle_deg"]) + s * theta))
-        for each in one["rows"]:
-            own = turn * cmath.exp(-1j * math.radians(each["axis_deg"]))
-            cosine, sine, lam = own.real, s * own.imag, radius / each["connecting_rod"]["length_m"]
+    actual_power = 0.0
+    for crank in body["throws"]:
+        radius, turn = crank["crank_radius_m"], cmath.exp(1j * (math.radians(crank["crank_angle_deg"]) + s * theta))
+        for line in crank["rows"]:
+            own = turn * cmath.exp(-1j * math.radians(line["axis_deg"]))
+            cosine, sine, lam = own.real, s * own.imag, radius / line["connecting_rod"]["length_m"]
             w = 1.0 - (lam * sine) ** 2
             speed = -radius * omega * (sine + lam * sine * cosine / math.sqrt(w))
             outward = cosine + lam * (cosine**2 - sine**2) / math.sqrt(w) + lam**3 * (cosine * sine) ** 2 / w**1.5
-            power = each["reciprocating_mass_kg"] * speed * -radius * omega**2 * outward
-            found += s * power / omega
-    for one, of_shaft in zip(body["balance_shafts"], answer["balance_shafts"], strict=True):
-        for place, fitted in zip(one["webs"], of_shaft["counterweights"], strict=True):
-            angle = math.radians(fitted["angle_deg"]) + s * one["speed_ratio"] * theta
-            size = fitted["mass_kg"] * place["counterweight_radius_m"] * (one["speed_ratio"] * omega) ** 2
-            x, y = one.get("x_m", 0.0), one.get("y_m", 0.0)
-            found += size * (x * math.sin(angle) - y * math.cos(angle))
-    return found
+            power = line["reciprocating_mass_kg"] * speed * -radius * omega**2 * outward
+            actual_power += s * power / omega
+    for balance_shaft, of_shaft in zip(body["balance_shafts"], answer["balance_shafts"], strict=True):
+        for place, fitted in zip(balance_shaft["webs"], of_shaft["counterweights"], strict=True):
+            angle = math.radians(fitted["angle_deg"]) + s * balance_shaft["speed_ratio"] * theta
+            size = fitted["mass_kg"] * place["counterweight_radius_m"] * (balance_shaft["speed_ratio"] * omega) ** 2
+            x, y = balance_shaft.get("x_m", 0.0), balance_shaft.get("y_m", 0.0)
+            actual_power += size * (x * math.sin(angle) - y * math.cos(angle))
+    return actual_power
 
 
 class FirstOrder(NamedTuple):
@@ -117,21 +120,23 @@ class FirstOrder(NamedTuple):
 
 def every_place(body: dict[str, Any]) -> list[dict[str, Any]]:
     """Webs of the crankshaft, and behind them those of balance shafts."""
-    return [*body["webs"], *(place for one in body["balance_shafts"] for place in one["webs"])]
+    return [*body["webs"], *(place for balance_shaft in body["balance_shafts"] for place in balance_shaft["webs"])]
 
 
 def first_order(body: dict[str, Any]) -> FirstOrder:
     """From definitions: a row halves into what turns with and against the crankshaft, a shaft does what it does."""
     places = every_place(body)
-    turns = [1] * len(body["webs"]) + [one["speed_ratio"] for one in body["balance_shafts"] for _ in one["webs"]]
-    planes = [each["position_m"] for each in body["throws"]]
+    turns = [1] * len(body["webs"]) + [
+        balance_shaft["speed_ratio"] for balance_shaft in body["balance_shafts"] for _ in balance_shaft["webs"]
+    ]
+    planes = [body_throw["position_m"] for body_throw in body["throws"]]
     middle = 0.5 * (min(planes) + max(planes))
     fixed = np.zeros((2, 2), complex)
-    for each in body["throws"]:
-        arm = np.array([1.0, each["position_m"] - middle])
-        crank, radius = np.exp(1j * np.deg2rad(each["crank_angle_deg"])), each["crank_radius_m"]
-        fixed[:, 0] += arm * each["rotating_mass_kg"] * radius * crank
-        for of_row in each["rows"]:
+    for single_throw in body["throws"]:
+        arm = np.array([1.0, single_throw["position_m"] - middle])
+        crank, radius = np.exp(1j * np.deg2rad(single_throw["crank_angle_deg"])), single_throw["crank_radius_m"]
+        fixed[:, 0] += arm * single_throw["rotating_mass_kg"] * radius * crank
+        for of_row in single_throw["rows"]:
             half = 0.5 * of_row["reciprocating_mass_kg"] * radius
             fixed[:, 0] += arm * half * crank
             fixed[:, 1] += arm * half * np.exp(2j * np.deg2rad(of_row["axis_deg"])) * np.conj(crank)

@@ -100,9 +100,9 @@ def _register(monkeypatch: pytest.MonkeyPatch, ceiling: float | None = None) -> 
 def _solved(request: OptimizeRequest) -> tuple[Prepared, Statement, ConeSolution]:
     scene = prepare(request, ("residual",))
     program = cone_program(request.machine, request.objective, scene.responses, scene.omega_squared)
-    found = optimum(program, 1e-6, True)
-    assert isinstance(found, ConeSolution)
-    return scene, program, found
+    solution = optimum(program, 1e-6, True)
+    assert isinstance(solution, ConeSolution)
+    return scene, program, solution
 
 
 def _by_hand(scene: Prepared, limit: float | None) -> float:
@@ -114,8 +114,8 @@ def _by_hand(scene: Prepared, limit: float | None) -> float:
     peaks = []
     for about in (None, float(scene.layout.reference_plane), PLANE):
         arm, own, web = (
-            (lambda at, about=about: np.ones_like(at) if about is None else at - about)(each)
-            for each in (turning.position, rows.position, z)
+            (lambda at, about=about: np.ones_like(at) if about is None else at - about)(position)
+            for position in (turning.position, rows.position, z)
         )
         half = 0.5 * rows.mass * rows.crank_radius * own
         co = np.sum(turning.mass * turning.radius * turning.direction * arm) + np.sum(half * rows.crank_direction)
@@ -141,23 +141,25 @@ def test_a_response_is_weighed_limited_and_certified(monkeypatch: pytest.MonkeyP
         # half-way from what it is to what it can be
         limit = 0.5 * (float(scene.responses[2].to(free.unbalance).peak) + least.objective) * scene.omega_squared
         request = _register(monkeypatch, limit)
-        assert [(each.response, most) for each, most in objective_ceilings(request.objective)] == [("couple", limit)]
-    scene, program, found = _solved(request)
+        assert [(fields.response, most) for fields, most in objective_ceilings(request.objective)] == [
+            ("couple", limit)
+        ]
+    scene, program, solution = _solved(request)
     assert program.names.terms[2].response == "couple"
-    mass = np.asarray(program.mass(found.unbalance))
-    bound, of_mass = np.asarray(found.lower_bound), np.asarray(found.mass_lower_bound)
-    judged = verdict(claim(program, found.unbalance, mass, bound, found.multipliers, of_mass), 1e-6)
+    mass = np.asarray(program.mass(solution.unbalance))
+    bound, of_mass = np.asarray(solution.lower_bound), np.asarray(solution.mass_lower_bound)
+    judged = verdict(claim(program, solution.unbalance, mass, bound, solution.multipliers, of_mass), 1e-6)
     assert judged.status == "optimal", judged.reason
     # the objective is what its responses come to over the turn, sampled
     turned = np.linspace(0.0, 2.0 * np.pi, 20_000)
-    peaks = [np.max(np.abs(each.over_turn(found.unbalance, turned))) for each in scene.responses]
-    assert found.objective == pytest.approx(peaks[0] + peaks[1] / 0.8 + WEIGHT * peaks[2], rel=1e-6)
+    peaks = [np.max(np.abs(response.over_turn(solution.unbalance, turned))) for response in scene.responses]
+    assert solution.objective == pytest.approx(peaks[0] + peaks[1] / 0.8 + WEIGHT * peaks[2], rel=1e-6)
     rest = float(program.objective(np.zeros(3, complex))) * scene.omega_squared
-    assert found.objective * scene.omega_squared == pytest.approx(_by_hand(scene, limit), abs=1.01e-6 * rest)
+    assert solution.objective * scene.omega_squared == pytest.approx(_by_hand(scene, limit), abs=1.01e-6 * rest)
     if limit is not None:
         assert peaks[2] * scene.omega_squared == pytest.approx(limit, rel=1e-6)
         # either is an optimum up to a millionth
-        assert found.objective > free.objective - 1e-6 * rest / scene.omega_squared
+        assert solution.objective > free.objective - 1e-6 * rest / scene.omega_squared
 
 
 def _backwards(layout: Layout) -> Response:
@@ -174,39 +176,39 @@ def test_order_and_sense_say_how_a_response_turns(monkeypatch: pytest.MonkeyPatc
 
     monkeypatch.setattr("optimizer.formulation.goals.weights", lambda *_: {"second": 1.0})
     throws = [
-        {**each, "rows": [{**row, "connecting_rod": {"length_m": 0.4}} for row in each["rows"]]}
-        for each in MACHINE["throws"]
+        {**throw, "rows": [{**row, "connecting_rod": {"length_m": 0.4}} for row in throw["rows"]]}
+        for throw in MACHINE["throws"]
     ]
     request = OptimizeRequest.model_validate({"machine": {**MACHINE, "throws": throws}})
     scene = prepare(request, ("residual",))
     response = _backwards(scene.layout)
     program = cone_program(request.machine, request.objective, (response,), scene.omega_squared)
-    found = optimum(program, 1e-6, True)
-    assert isinstance(found, ConeSolution)
-    assert found.gap <= 1e-6 * float(program.at_rest)
+    solution = optimum(program, 1e-6, True)
+    assert isinstance(solution, ConeSolution)
+    assert solution.gap <= 1e-6 * float(program.at_rest)
     turned = np.linspace(0.0, 2.0 * np.pi, 3_601)
     rows = scene.layout.reciprocating
     axis, own = np.deg2rad([90.0, 60.0]), np.deg2rad([0.0 - 90.0, 110.0 - 60.0])
     size = rows.mass * rows.crank_radius * acceleration_harmonic(2, rows.rod_ratio)
     pushed = np.sum(size * np.exp(1j * axis) * np.cos(2.0 * (turned[:, None] + own)), axis=-1)
-    force = pushed + 4.0 * np.sum(found.unbalance) * np.exp(-2j * turned)
-    np.testing.assert_allclose(response.over_turn(found.unbalance, turned), force, atol=1e-12)
-    assert np.max(np.abs(force)) == pytest.approx(found.objective, rel=1e-5)
+    force = pushed + 4.0 * np.sum(solution.unbalance) * np.exp(-2j * turned)
+    np.testing.assert_allclose(response.over_turn(solution.unbalance, turned), force, atol=1e-12)
+    assert np.max(np.abs(force)) == pytest.approx(solution.objective, rel=1e-5)
     # analytic: what turns with the crank at twice its speed is left
-    assert found.objective == pytest.approx(abs(reciprocating(scene.layout, 2).force.co), abs=2e-6 * program.at_rest)
+    assert solution.objective == pytest.approx(abs(reciprocating(scene.layout, 2).force.co), abs=2e-6 * program.at_rest)
 
 
 def test_a_sweep_knows_the_response_as_well(monkeypatch: pytest.MonkeyPatch) -> None:
     request = _register(monkeypatch)
-    scene, _, found = _solved(request)
+    scene, _, solution = _solved(request)
     columns, unbalance = optimal(request, 3)
     assert columns["status"].tolist() == ["optimal"] * 3
-    np.testing.assert_allclose(columns["objective"], found.objective * scene.omega_squared, rtol=1e-12)
-    np.testing.assert_allclose(unbalance, np.tile(found.unbalance, (3, 1)), rtol=1e-9, atol=1e-12)
+    np.testing.assert_allclose(columns["objective"], solution.objective * scene.omega_squared, rtol=1e-12)
+    np.testing.assert_allclose(unbalance, np.tile(solution.unbalance, (3, 1)), rtol=1e-9, atol=1e-12)
 
 
 def test_only_these_files_name_the_responses_of_the_contract() -> None:
     root = Path(optimizer.__file__).parent
     name = re.compile(r"""["'](force|moment)["']|\b(force|moment)_(weight|ceiling)|\.(force|moment)\b""")
-    found = {str(path.relative_to(root)) for path in root.rglob("*.py") if name.search(path.read_text("utf-8"))}
-    assert found == set(NAMED_IN)
+    texts = {str(path.relative_to(root)) for path in root.rglob("*.py") if name.search(path.read_text("utf-8"))}
+    assert texts == set(NAMED_IN)

@@ -37,8 +37,8 @@ def small(**more: Any) -> dict[str, Any]:
 def test_the_cheapest_of_all_sets(combine: str) -> None:
     """Independent: every set, by the analysis of each."""
     body = small()
-    found = optimized(question(body, objective={"combine": combine, "force_weight": 1.0, "moment_weight": 2.0}))
-    assert found.certificate is not None
+    answer = optimized(question(body, objective={"combine": combine, "force_weight": 1.0, "moment_weight": 2.0}))
+    assert answer.certificate is not None
     sets = []
     for some, after in every_set(body, [[0.0, 180.0], [0.0, 180.0], [90.0, 270.0]]):
         peaks = after.force.peak_N, 2.0 * after.moment.peak_Nm
@@ -46,27 +46,27 @@ def test_the_cheapest_of_all_sets(combine: str) -> None:
         value = sum(peaks) if combine == "sum" else max(peaks)
         sets.append((value, {"mass": sum(masses), "pieces": len(masses), "sizes": len(set(masses))}))
     best = min(value for value, _ in sets)
-    assert found.certificate.objective == pytest.approx(best, rel=1e-9)
+    assert answer.certificate.objective == pytest.approx(best, rel=1e-9)
     own = {
-        "mass": found.total_mass_kg,
-        "pieces": sum(one.mass_kg > 0 for one in found.counterweights),
-        "sizes": len({one.mass_kg for one in found.counterweights if one.mass_kg > 0}),
+        "mass": answer.total_mass_kg,
+        "pieces": sum(counterweight.mass_kg > 0 for counterweight in answer.counterweights),
+        "sizes": len({counterweight.mass_kg for counterweight in answer.counterweights if counterweight.mass_kg > 0}),
     }
-    for minimised, known in own.items():
+    for minimised, minimum in own.items():
         expected = []
         for allowance in _ALLOWANCES:
             within = [cost[minimised] for value, cost in sets if value <= best * (1.0 + allowance) * (1.0 + 1e-9)]
-            if min(within) < known:
-                known = min(within)
-                expected.append((allowance, known))
-        listed = [one for one in found.alternatives if one.minimised == minimised]
+            if min(within) < minimum:
+                minimum = min(within)
+                expected.append((allowance, minimum))
+        listed = [alternative for alternative in answer.alternatives if alternative.minimised == minimised]
         costs = {"mass": "total_mass_kg", "pieces": "pieces", "sizes": "sizes"}
-        assert [(one.allowance, getattr(one, costs[minimised])) for one in listed] == expected
-        for one in listed:
+        assert [(alternative.allowance, getattr(alternative, costs[minimised])) for alternative in listed] == expected
+        for bound in listed:
             # all sets were compared: the bound is what was found
-            assert one.lower_bound == pytest.approx(getattr(one, costs[minimised]), rel=1e-9)
-            assert one.objective <= best * (1.0 + one.allowance) * (1.0 + 1e-9)
-    assert found.alternatives
+            assert bound.lower_bound == pytest.approx(getattr(bound, costs[minimised]), rel=1e-9)
+            assert bound.objective <= best * (1.0 + bound.allowance) * (1.0 + 1e-9)
+    assert answer.alternatives
 
 
 def test_the_machine_of_the_foundry() -> None:
@@ -94,17 +94,19 @@ def test_the_machine_of_the_foundry() -> None:
         ],
         "catalogue": {"mass_step_kg": 0.5, "angle_step_deg": 5},
     }  # fmt: skip
-    found = optimized({"machine": body, "alternatives": [0.01, 0.05], "accuracy": {"time_limit_s": 2}})
-    assert found.status == "optimal"
-    pieces = {one.allowance: one for one in found.alternatives if one.minimised == "pieces"}
+    answer = optimized({"machine": body, "alternatives": [0.01, 0.05], "accuracy": {"time_limit_s": 2}})
+    assert answer.status == "optimal"
+    pieces = {
+        alternative.allowance: alternative for alternative in answer.alternatives if alternative.minimised == "pieces"
+    }
     assert (pieces[0.05].pieces, pieces[0.05].lower_bound) == (2, 2)
     assert pieces[0.05].total_mass_kg <= 85.5
-    assert found.certificate is not None
-    assert pieces[0.05].objective <= 1.05 * found.certificate.objective * (1.0 + 1e-9)
+    assert answer.certificate is not None
+    assert pieces[0.05].objective <= 1.05 * answer.certificate.objective * (1.0 + 1e-9)
     # two that come to no more than 1 % above the best there are not: all pairs of webs were compared
     assert pieces[0.01].lower_bound == 3
-    assert pieces[0.01].pieces < sum(one.mass_kg > 0 for one in found.counterweights)
-    assert next(iter(chapter(found))).title == "Cheaper choices"
+    assert pieces[0.01].pieces < sum(counterweight.mass_kg > 0 for counterweight in answer.counterweights)
+    assert next(iter(chapter(answer))).title == "Cheaper choices"
 
 
 def test_what_nothing_is_cheaper_than() -> None:
@@ -112,7 +114,7 @@ def test_what_nothing_is_cheaper_than() -> None:
     body = small()
     assert optimized({"machine": body}).alternatives == ()
     assert not list(chapter(optimized({"machine": body})))
-    idle = {**body, "throws": [{**one, "rotating_mass_kg": 0, "rows": []} for one in body["throws"]]}
+    idle = {**body, "throws": [{**throw, "rotating_mass_kg": 0, "rows": []} for throw in body["throws"]]}
     assert optimized(question(idle)).alternatives == ()
 
 
@@ -121,13 +123,19 @@ def test_fixed_weights_count_and_are_not_chosen() -> None:
     body = small()
     body["webs"][0] = {**{k: v for k, v in body["webs"][0].items() if k != "max_mass_kg"},
                        "fixed": {"mass_kg": 5.0, "angle_deg": 180.0}}  # fmt: skip
-    found = optimized(question(body))
-    for one in found.alternatives:
-        chosen = [each for each in one.counterweights if each.mass_kg > 0 and each.web != "a"]
-        assert one.pieces == len(chosen)
-        assert one.total_mass_kg == pytest.approx(5.0 + sum(each.mass_kg for each in chosen), rel=1e-12)
-        assert one.minimised != "mass" or one.lower_bound >= 5.0
-    assert found.alternatives
+    answer = optimized(question(body))
+    for alternative in answer.alternatives:
+        chosen = [
+            counterweight
+            for counterweight in alternative.counterweights
+            if counterweight.mass_kg > 0 and counterweight.web != "a"
+        ]
+        assert alternative.pieces == len(chosen)
+        assert alternative.total_mass_kg == pytest.approx(
+            5.0 + sum(counterweight.mass_kg for counterweight in chosen), rel=1e-12
+        )
+        assert alternative.minimised != "mass" or alternative.lower_bound >= 5.0
+    assert answer.alternatives
 
 
 @pytest.mark.parametrize(("alternatives", "first_s"), [([0.01], 6.0), ([], 10.0)])
@@ -151,7 +159,7 @@ def test_all_of_it_shares_one_time_limit(
     monkeypatch.setattr(module, "alternatives", listed)
     optimize(OptimizeRequest.model_validate(body))
     assert limits == [first_s]
-    assert all(4.0 <= each < 10.0 for each in left)
+    assert all(4.0 <= value < 10.0 for value in left)
     assert len(left) == len(alternatives)
 
 
@@ -178,9 +186,9 @@ def test_what_lists_none_refuses_them(model: type[Model]) -> None:
     """Fronts, ladders and sweeps have no such list, and say so at the field."""
     body = question(small())
     axes = [{"path": "/machine/speed_rpm", "values": [400, 500]}]
-    wanted = {"base": body, "axes": axes} if model is SweepRequest else body
+    sweep = {"base": body, "axes": axes} if model is SweepRequest else body
     with pytest.raises(ValueError, match=r"remove it|the ladder is of one machine|not a sweep"):
-        model.model_validate(wanted)
+        model.model_validate(sweep)
 
 
 def test_a_bound_above_its_choice_is_a_fault_that_is_logged(
@@ -189,23 +197,23 @@ def test_a_bound_above_its_choice_is_a_fault_that_is_logged(
     """Nothing is proven then, and nothing is clipped."""
     true = Costs._lightest
     monkeypatch.setattr(Costs, "_lightest", lambda costs, level, seconds: 1e6 * (1.0 + true(costs, level, seconds)))
-    found = optimized(question(small()))
-    of_mass = [one for one in found.alternatives if one.minimised == "mass"]
+    answer = optimized(question(small()))
+    of_mass = [alternative for alternative in answer.alternatives if alternative.minimised == "mass"]
     assert of_mass
-    assert all(one.lower_bound is None for one in of_mass)
-    assert any("below its bound" in each.message for each in caplog.records if each.levelname == "ERROR")
-    assert next(iter(chapter(found))).title == "Cheaper choices"
+    assert all(alternative.lower_bound is None for alternative in of_mass)
+    assert any("below its bound" in record.message for record in caplog.records if record.levelname == "ERROR")
+    assert next(iter(chapter(answer))).title == "Cheaper choices"
 
 
 def test_a_stranger_finds_what_is_false() -> None:
     """Independent: the checker of the example client recomputes every choice."""
     body = question(small())
-    found: OptimizeAnswer = optimized(body)
-    (first, *_) = found.alternatives
+    answer: OptimizeAnswer = optimized(body)
+    (first, *_) = answer.alternatives
     fields = {"objective": first.objective * 0.999, "total_mass_kg": first.total_mass_kg * 0.99}
     fields |= {"pieces": first.pieces - 1, "sizes": first.sizes + 1, "lower_bound": first.lower_bound * 2.0}
     fields |= {"allowance": 0.01}
     for name, figure in fields.items():
-        false = found.model_dump(mode="json")
+        false = answer.model_dump(mode="json")
         false["alternatives"][0][name] = figure
         assert verdict(body, false) == "broken", name

@@ -11,7 +11,7 @@ from schemas.answer.answers import OptimizeAnswer
 from schemas.front.pareto import ParetoRequest
 from tests.hard_turn import machines
 from tests.optimize.machines import first_order, machine, random_machine, row, throw, web
-from tests.optimize.whole_turn import one_throw
+from tests.optimize.whole_turn import single_throw
 from tests.verification.checking import optimized
 
 OMEGA_SQUARED = (600 * math.pi / 30) ** 2
@@ -31,28 +31,28 @@ def answer(body: dict[str, Any], **objective: Any) -> OptimizeAnswer:
 def test_a_ceiling_along_the_axis_of_a_row_moves_force_to_the_other() -> None:
     # analytic: a share t of the row's unbalance opposite its crank leaves 1 - t along y and t along x, the larger
     # of which is the peak
-    found = answer(upright(), force_ceiling_y_N=0.3 * WHOLE)
-    after = found.residual.after
-    assert (found.status, found.active_limits) == ("optimal", ("force_ceiling_y",))
+    optimum = answer(upright(), force_ceiling_y_N=0.3 * WHOLE)
+    after = optimum.residual.after
+    assert (optimum.status, optimum.active_limits) == ("optimal", ("force_ceiling_y",))
     assert after.force.peak_y_N == pytest.approx(0.3 * WHOLE, rel=1e-8)
     assert after.force.peak_x_N == pytest.approx(0.7 * WHOLE, rel=1e-8)
-    assert found.total_mass_kg == pytest.approx(0.7 * 20.0, rel=1e-6)
-    price = next(one for one in found.shadow_prices if one.limit == "force_ceiling_y")
+    assert optimum.total_mass_kg == pytest.approx(0.7 * 20.0, rel=1e-6)
+    price = next(shadow_price for shadow_price in optimum.shadow_prices if shadow_price.limit == "force_ceiling_y")
     assert price.unit == "N/N"
     assert price.value == pytest.approx(1.0, rel=1e-6)
 
 
 def test_ceilings_of_both_axes_conflict_together() -> None:
-    found = answer(upright(), force_ceiling_x_N=0.4 * WHOLE, force_ceiling_y_N=0.5 * WHOLE)
-    assert found.status == "infeasible"
-    why = found.infeasibility
+    optimum = answer(upright(), force_ceiling_x_N=0.4 * WHOLE, force_ceiling_y_N=0.5 * WHOLE)
+    assert optimum.status == "infeasible"
+    why = optimum.infeasibility
     assert why.conflict == ("force_ceiling_x_N", "force_ceiling_y_N")
     # analytic: either axis alone can be made free of force
-    assert [(one.response, one.ceiling_field) for one in why.smallest] == [
+    assert [(peak.response, peak.ceiling_field) for peak in why.smallest] == [
         ("force:x", "force_ceiling_x_N"),
         ("force:y", "force_ceiling_y_N"),
     ]
-    assert [one.smallest for one in why.smallest] == pytest.approx([0.0, 0.0], abs=1e-6 * WHOLE)
+    assert [peak.smallest for peak in why.smallest] == pytest.approx([0.0, 0.0], abs=1e-6 * WHOLE)
     # each excess relative to the larger of ceiling and force without counterweights: (t - 0.4)/0.4 = (0.5 - t)/1
     closest = why.closest.first_order.force
     assert closest.peak_x_N == pytest.approx(0.6 / 1.4 * WHOLE, rel=1e-5)
@@ -62,9 +62,9 @@ def test_ceilings_of_both_axes_conflict_together() -> None:
 def test_a_ceiling_that_cannot_be_kept_says_by_how_much() -> None:
     # analytic: 2 kg at 0.1 m take 0.1 off
     body = upright() | {"webs": [web("a", 0.0, 2.0)]}
-    found = answer(body, force_ceiling_y_N=0.85 * WHOLE, moment_ceiling_x_Nm=1e6)
-    assert found.infeasibility.conflict == ("force_ceiling_y_N",)
-    reached = {one.response: one for one in found.infeasibility.smallest}["force:y"]
+    optimum = answer(body, force_ceiling_y_N=0.85 * WHOLE, moment_ceiling_x_Nm=1e6)
+    assert optimum.infeasibility.conflict == ("force_ceiling_y_N",)
+    reached = {peak.response: peak for peak in optimum.infeasibility.smallest}["force:y"]
     assert reached.smallest == pytest.approx(0.9 * WHOLE, rel=1e-8)
     assert reached.lower_bound == pytest.approx(0.9 * WHOLE, rel=1e-7)
 
@@ -86,9 +86,9 @@ def test_components_over_the_turn_stay_below_their_ceilings(seed: int) -> None:
             strict=True,
         )
     }
-    found = answer(body, **sizes)
-    assert found.status == "optimal"
-    fitted = [one.model_dump() for one in found.counterweights]
+    optimum = answer(body, **sizes)
+    assert optimum.status == "optimal"
+    fitted = [counterweight.model_dump() for counterweight in optimum.counterweights]
     # independent: forces and couples summed by hand over the turn
     force, moment = first_order(body, fitted, np.arange(0.0, 360.0, 0.5))
     peaks = np.max(np.abs([force.real, force.imag, moment.real, moment.imag]), axis=-1)
@@ -106,7 +106,7 @@ def test_a_front_keeps_them() -> None:
 
 def along_x(**objective: Any) -> OptimizeAnswer:
     """m r = 1 reciprocating along x on a rod of ratio 0.3, and a web in its plane, at 1 rad/s; all orders."""
-    body = one_throw(1.0 / 0.3)
+    body = single_throw(1.0 / 0.3)
     body["throws"][0]["rotating_mass_kg"] = 0.0
     body["webs"] = [{"name": "w", "position_m": 0.0, "counterweight_radius_m": 1.0, "max_mass_kg": 9.0}]
     return optimized({"machine": body, "objective": {"orders": "all", "moment_weight": 0, **objective}})
@@ -121,18 +121,18 @@ def test_all_orders_keep_ceilings_along_axes(ceiling: dict[str, float], mass: fl
 
     Published in the mathematics of this project: without ceilings c is .603531.
     """
-    found = along_x(**ceiling)
-    assert found.status == "optimal"
-    assert found.total_mass_kg == pytest.approx(mass, abs=1e-3 if mass == 0.603531 else 4e-6)
-    assert found.active_limits == ((next(iter(ceiling)).removesuffix("_N"),) if mass != 0.603531 else ())
+    response = along_x(**ceiling)
+    assert response.status == "optimal"
+    assert response.total_mass_kg == pytest.approx(mass, abs=1e-3 if mass == 0.603531 else 4e-6)
+    assert response.active_limits == ((next(iter(ceiling)).removesuffix("_N"),) if mass != 0.603531 else ())
 
 
 def test_all_orders_cannot_come_below_what_is_left_along_an_axis() -> None:
     """Published in the mathematics of this project: lam/sqrt(1 - lam^2) is left along x, whatever the web."""
-    found = along_x(force_ceiling_x_N=0.3)
-    assert found.infeasibility is not None
-    assert found.infeasibility.conflict == ("force_ceiling_x_N",)
-    (least,) = found.infeasibility.smallest
+    response = along_x(force_ceiling_x_N=0.3)
+    assert response.infeasibility is not None
+    assert response.infeasibility.conflict == ("force_ceiling_x_N",)
+    (least,) = response.infeasibility.smallest
     assert (least.response, least.ceiling_field) == ("force:x", "force_ceiling_x_N")
     assert least.smallest == pytest.approx(0.3 / math.sqrt(1.0 - 0.09), rel=1e-6)
     assert least.lower_bound == pytest.approx(least.smallest, rel=1e-6)
@@ -149,17 +149,17 @@ def test_all_orders_of_a_v_keep_ceilings_of_either_sense(rotation: str) -> None:
     free = optimized({"machine": body, "objective": {"orders": "all"}})
     peaks = all_orders(body, free)
     allowed = dict(zip(FIELDS, (0.98 * peaks[0], 1.5 * peaks[1], 1.3 * peaks[2], 0.97 * peaks[3]), strict=True))
-    found = optimized({"machine": body, "objective": {"orders": "all", **allowed}})
-    assert found.status == "optimal"
-    assert set(found.active_limits) <= {field.rpartition("_")[0] for field in FIELDS}
-    assert found.active_limits
-    there = all_orders(body, found)
+    optimum = optimized({"machine": body, "objective": {"orders": "all", **allowed}})
+    assert optimum.status == "optimal"
+    assert set(optimum.active_limits) <= {field.rpartition("_")[0] for field in FIELDS}
+    assert optimum.active_limits
+    there = all_orders(body, optimum)
     assert np.all(there <= np.array(list(allowed.values())) * (1 + 1e-8))
-    touched = [field.rpartition("_")[0] in found.active_limits for field in FIELDS]
+    touched = [field.rpartition("_")[0] in optimum.active_limits for field in FIELDS]
     assert there[touched] == pytest.approx(np.array(list(allowed.values()))[touched], rel=1e-5)
 
 
-def all_orders(body: dict[str, Any], found: OptimizeAnswer) -> np.ndarray:
+def all_orders(body: dict[str, Any], optimum: OptimizeAnswer) -> np.ndarray:
     """Peaks of force and couple about the reference plane, x and y of each."""
     omega, sense = body["speed_rpm"] * math.pi / 30, 1 if body["rotation"] == "ccw" else -1
     turn = np.deg2rad(np.arange(0.0, 360.0, 0.05))
@@ -168,30 +168,30 @@ def all_orders(body: dict[str, Any], found: OptimizeAnswer) -> np.ndarray:
 
     def put(vector: np.ndarray, plane: float) -> None:
         nonlocal force, moment
-        force, moment = force + vector, moment + vector * (plane - found.reference_plane_m)
+        force, moment = force + vector, moment + vector * (plane - optimum.reference_plane_m)
 
-    for each in body["throws"]:
-        radius, crank = each["crank_radius_m"], np.deg2rad(each["crank_angle_deg"])
-        put(each["rotating_mass_kg"] * radius * omega**2 * np.exp(1j * crank) * swing, each["position_m"])
-        for one in each["rows"]:
-            rod = one["connecting_rod"]
-            axis, lam = np.deg2rad(one["axis_deg"]), radius / rod["length_m"]
+    for body_throw in body["throws"]:
+        radius, crank = body_throw["crank_radius_m"], np.deg2rad(body_throw["crank_angle_deg"])
+        put(body_throw["rotating_mass_kg"] * radius * omega**2 * np.exp(1j * crank) * swing, body_throw["position_m"])
+        for line in body_throw["rows"]:
+            rod = line["connecting_rod"]
+            axis, lam = np.deg2rad(line["axis_deg"]), radius / rod["length_m"]
             phi = crank + sense * turn - axis
             # the second derivative of r cos phi + sqrt(l^2 - r^2 sin^2 phi), to first order of nothing
             upright = np.sqrt(1.0 - (lam * np.sin(phi)) ** 2)
             outward = np.cos(phi) + lam * np.cos(2 * phi) / upright
             outward += lam**3 * (np.sin(phi) * np.cos(phi)) ** 2 / upright**3
-            mass = one["reciprocating_mass_kg"] + rod["reciprocating_share"] * rod["mass_kg"]
-            plane = each["position_m"] + one["offset_m"]
+            mass = line["reciprocating_mass_kg"] + rod["reciprocating_share"] * rod["mass_kg"]
+            plane = body_throw["position_m"] + line["offset_m"]
             put(mass * radius * omega**2 * outward * np.exp(1j * axis), plane)
             # the other end of the rod goes round with the pin
             put(
                 (1 - rod["reciprocating_share"]) * rod["mass_kg"] * radius * omega**2 * np.exp(1j * crank) * swing,
                 plane,
             )
-    places = {each["name"]: each for each in body["webs"]}
-    for each in found.counterweights:
-        at = places[each.web]
-        product = each.mass_kg * at["counterweight_radius_m"] * omega**2
-        put(product * np.exp(1j * np.deg2rad(each.angle_deg)) * swing, at["position_m"])
+    places = {body_web["name"]: body_web for body_web in body["webs"]}
+    for counterweight in optimum.counterweights:
+        at = places[counterweight.web]
+        product = counterweight.mass_kg * at["counterweight_radius_m"] * omega**2
+        put(product * np.exp(1j * np.deg2rad(counterweight.angle_deg)) * swing, at["position_m"])
     return np.max(np.abs([force.real, force.imag, moment.real, moment.imag]), axis=-1)

@@ -24,30 +24,30 @@ def answer(body: dict[str, Any], **objective: Any) -> OptimizeAnswer:
 
 def test_one_shaft_backwards_takes_the_other_half_of_a_single_cylinder() -> None:
     # published: half of the reciprocating mass on either shaft, opposite the crank, cancels the first order
-    found = answer(single([shaft("back", -1, radius=0.05)]))
-    (back,) = found.balance_shafts
+    optimum = answer(single([shaft("back", -1, radius=0.05)]))
+    (back,) = optimum.balance_shafts
     (on_shaft,) = back.counterweights
-    assert found.status == "optimal"
-    assert found.residual.after.force.peak_N <= 2e-6 * WHOLE
-    assert found.certificate.lower_bound >= 0.0
-    assert found.total_mass_kg == pytest.approx(5.0, rel=3e-6)
-    assert found.balance_shafts_mass_kg == back.total_mass_kg == pytest.approx(10.0, rel=3e-6)
+    assert optimum.status == "optimal"
+    assert optimum.residual.after.force.peak_N <= 2e-6 * WHOLE
+    assert optimum.certificate.lower_bound >= 0.0
+    assert optimum.total_mass_kg == pytest.approx(5.0, rel=3e-6)
+    assert optimum.balance_shafts_mass_kg == back.total_mass_kg == pytest.approx(10.0, rel=3e-6)
     assert on_shaft.angle_deg == pytest.approx(270.0, abs=1e-4)
     assert on_shaft.centrifugal_force_N == pytest.approx(0.5 * WHOLE, rel=3e-6)
     assert (on_shaft.throw, on_shaft.angle_from_crank_deg) == (None, None)
     assert back.gearing.startswith("Turns against the crankshaft at its speed")
-    assert (found.floor.force_N, found.floor.moment_Nm) == (0.0, 0.0)
+    assert (optimum.floor.force_N, optimum.floor.moment_Nm) == (0.0, 0.0)
     # the least mass of all shafts together
-    assert found.certificate.mass_lower_bound_kg == pytest.approx(15.0, rel=3e-6)
+    assert optimum.certificate.mass_lower_bound_kg == pytest.approx(15.0, rel=3e-6)
 
 
 @pytest.mark.parametrize(("ratio", "left"), [(1, 0.5), (-1, 0.5), (2, 1.0), (-2, 1.0)])
 def test_a_shaft_answers_its_own_phasor_alone(ratio: int, left: float) -> None:
     # analytic: without counterweights on the crankshaft
-    found = answer(single([shaft("one", ratio)], webs=0))
-    assert found.residual.after.force.peak_N == pytest.approx(left * WHOLE, rel=2e-6)
-    assert found.balance_shafts_mass_kg == pytest.approx(5.0 if abs(ratio) == 1 else 0.0, rel=1e-5)
-    assert found.floor.force_N == pytest.approx(0.0 if ratio == -1 else 0.5 * WHOLE)
+    optimum = answer(single([shaft("one", ratio)], webs=0))
+    assert optimum.residual.after.force.peak_N == pytest.approx(left * WHOLE, rel=2e-6)
+    assert optimum.balance_shafts_mass_kg == pytest.approx(5.0 if abs(ratio) == 1 else 0.0, rel=1e-5)
+    assert optimum.floor.force_N == pytest.approx(0.0 if ratio == -1 else 0.5 * WHOLE)
 
 
 @pytest.mark.parametrize(
@@ -61,18 +61,18 @@ def test_a_shaft_answers_its_own_phasor_alone(ratio: int, left: float) -> None:
 )
 def test_how_a_shaft_is_geared_and_stands_is_said(ratio: int, words: str) -> None:
     # analytic: what is fitted is named by its angle, however light, and nothing where nothing is
-    said = ReciprocatingMachine.model_validate(single([shaft("one", ratio)], webs=2))
-    there = fitted(said, np.array([1.0, 1.0, 0.25]), np.array([0.0, 0.0, 30.0])).balance_shafts[0]
+    machine = ReciprocatingMachine.model_validate(single([shaft("one", ratio)], webs=2))
+    there = fitted(machine, np.array([1.0, 1.0, 0.25]), np.array([0.0, 0.0, 30.0])).balance_shafts[0]
     assert there.gearing == f"{words}; at shaft angle 0 one web at 30.00 deg."
-    nothing = fitted(said, np.array([1.0, 1.0, 0.0]), np.zeros(3)).balance_shafts[0]
+    nothing = fitted(machine, np.array([1.0, 1.0, 0.0]), np.zeros(3)).balance_shafts[0]
     assert nothing.gearing == f"{words}; at shaft angle 0 it carries nothing."
 
 
 def test_limits_of_a_shaft_are_kept_and_priced() -> None:
     # analytic: 2 kg of the 5 that the shaft needs
-    found = answer(single([shaft("back", -1, max_mass=2.0)]))
-    assert found.residual.after.force.peak_N == pytest.approx(0.3 * WHOLE, rel=1e-5)
-    (price,) = found.shadow_prices
+    optimum = answer(single([shaft("back", -1, max_mass=2.0)]))
+    assert optimum.residual.after.force.peak_N == pytest.approx(0.3 * WHOLE, rel=1e-5)
+    (price,) = optimum.shadow_prices
     assert (price.web, price.limit) == ("back web", "max_mass")
     assert price.value == pytest.approx(0.1 * WHOLE, rel=1e-6)
     # 270 degrees is best, 220 the nearest that the sector allows; what stands across is left
@@ -103,36 +103,36 @@ def _inclined(rotation: str) -> dict[str, Any]:
 def test_figures_are_those_of_masses_times_accelerations(rotation: str, objective: dict[str, Any]) -> None:
     """Independent: what the returned unbalances and the pistons' first order come to over the turn."""
     body = _inclined(rotation)
-    found = answer(body, **objective)
-    assert found.status == "optimal"
-    turn = np.array([at(body, found.model_dump(), theta, first=True) for theta in np.arange(0.0, 360.0, 0.25)])
-    after = found.residual.after
+    optimum = answer(body, **objective)
+    assert optimum.status == "optimal"
+    turn = np.array([at(body, optimum.model_dump(), theta, first=True) for theta in np.arange(0.0, 360.0, 0.25)])
+    after = optimum.residual.after
     assert after.force.peak_N == pytest.approx(np.max(np.abs(turn[:, 0])), rel=1e-5)
     assert after.moment.peak_Nm == pytest.approx(np.max(np.abs(turn[:, 1])), rel=1e-5)
     assert after.force.peak_y_N == pytest.approx(np.max(np.abs(turn[:, 0].imag)), rel=1e-5)
     # nobody near is better
-    rest = found.certificate.objective_without_counterweights
-    assert found.certificate.objective - found.certificate.lower_bound <= 1e-6 * rest
+    rest = optimum.certificate.objective_without_counterweights
+    assert optimum.certificate.objective - optimum.certificate.lower_bound <= 1e-6 * rest
 
 
 def test_given_unbalances_are_counted_at_the_order_of_their_shaft() -> None:
     body = in_line_four([shaft("up", 2, 0.18), shaft("low", -2, 0.18)])
-    given = [
+    counterweights = [
         {"web": "up web", "mass_kg": 1.0, "angle_deg": 30.0},
         {"web": "low web", "mass_kg": 2.0, "angle_deg": 300.0},
     ]
-    asked = {"machine": body, "counterweights": given, "outputs": ["residual", "orders"]}
-    found = analyze(AnalyzeRequest.model_validate(asked))
+    payload = {"machine": body, "counterweights": counterweights, "outputs": ["residual", "orders"]}
+    analysis = analyze(AnalyzeRequest.model_validate(payload))
     # analytic: (2 omega)^2 m R, beside m r A_2 / 2 of four cylinders along y either way
-    second, was = found.residual.orders.after[1], found.residual.orders.before[1]
+    second, was = analysis.residual.orders.after[1], analysis.residual.orders.before[1]
     for sense, mass, degrees in (("co_rotating", 1.0, 30.0), ("counter_rotating", 2.0, 300.0)):
         left, there = getattr(second.force, sense), getattr(was.force, sense)
         added = complex(left.real_N - there.real_N, left.imag_N - there.imag_N)
         assert added == pytest.approx(4.0 * mass * 0.1 * WHOLE * np.exp(1j * np.deg2rad(degrees)), rel=1e-12)
-    assert found.orders.after[1] == second
-    assert found.residual.orders.after[0] == found.residual.orders.before[0]
-    assert [one.total_mass_kg for one in found.balance_shafts] == [1.0, 2.0]
-    assert found.balance_shafts_mass_kg == 3.0
+    assert analysis.orders.after[1] == second
+    assert analysis.residual.orders.after[0] == analysis.residual.orders.before[0]
+    assert [balance_shaft.total_mass_kg for balance_shaft in analysis.balance_shafts] == [1.0, 2.0]
+    assert analysis.balance_shafts_mass_kg == 3.0
 
 
 def _refused(model: type, body: dict[str, Any]) -> tuple[Any, ...]:
@@ -171,9 +171,9 @@ def test_what_is_not_done_with_balance_shafts_is_refused_by_name() -> None:
 # ---- all orders, by cuts whose influence turns
 
 
-def turned(body: dict[str, Any], found: OptimizeAnswer, step: float = 0.25) -> np.ndarray:
+def turned(body: dict[str, Any], optimum: OptimizeAnswer, step: float = 0.25) -> np.ndarray:
     """Independent: force and couple over the turn, of masses times accelerations (n, 2)."""
-    answered = found.model_dump()
+    answered = optimum.model_dump()
     return np.array([at(body, answered, theta) for theta in np.arange(0.0, 360.0, step)])
 
 
@@ -190,14 +190,14 @@ def turned(body: dict[str, Any], found: OptimizeAnswer, step: float = 0.25) -> n
 )
 def test_a_single_cylinder_over_all_orders(shafts: tuple[int, ...], webs: int, expected: float) -> None:
     body = single([shaft(f"at {ratio}", ratio) for ratio in shafts], webs)
-    found = answer(body, orders="all")
-    assert found.status == "optimal"
+    optimum = answer(body, orders="all")
+    assert optimum.status == "optimal"
     # an optimum may be above it by a millionth of 1.3
-    assert found.certificate.objective / WHOLE == pytest.approx(expected, abs=1.5e-6)
-    assert found.certificate.objective - found.certificate.lower_bound <= 1e-6 * 1.3 * WHOLE
-    assert np.max(np.abs(turned(body, found)[:, 0])) == pytest.approx(found.certificate.objective, rel=1e-5)
+    assert optimum.certificate.objective / WHOLE == pytest.approx(expected, abs=1.5e-6)
+    assert optimum.certificate.objective - optimum.certificate.lower_bound <= 1e-6 * 1.3 * WHOLE
+    assert np.max(np.abs(turned(body, optimum)[:, 0])) == pytest.approx(optimum.certificate.objective, rel=1e-5)
     if webs and not shafts:
-        assert found.counterweights[0].mass_radius_kg_m == pytest.approx(0.603531, abs=1e-5)
+        assert optimum.counterweights[0].mass_radius_kg_m == pytest.approx(0.603531, abs=1e-5)
 
 
 def _lanchester(**objective: Any) -> tuple[dict[str, Any], OptimizeAnswer]:
@@ -206,29 +206,37 @@ def _lanchester(**objective: Any) -> tuple[dict[str, Any], OptimizeAnswer]:
 
 
 def test_lanchesters_pair_takes_the_second_order_of_an_in_line_four() -> None:
-    body, found = _lanchester()
-    sizes = [one.mass_radius_kg_m for each in found.balance_shafts for one in each.counterweights]
+    body, optimum = _lanchester()
+    sizes = [
+        counterweight.mass_radius_kg_m
+        for balance_shaft in optimum.balance_shafts
+        for counterweight in balance_shaft.counterweights
+    ]
     # analytic: m r A_2 / 2 on each, opposite the outer cranks, a hair more where the fourth order counts too
     assert sizes == pytest.approx([0.1535253] * 2, rel=1e-3)
-    assert [each.counterweights[0].angle_deg for each in found.balance_shafts] == pytest.approx([270.0] * 2, abs=0.01)
-    assert np.max(np.abs(turned(body, found)[:, 0])) == pytest.approx(found.certificate.objective, rel=1e-5)
+    assert [balance_shaft.counterweights[0].angle_deg for balance_shaft in optimum.balance_shafts] == pytest.approx(
+        [270.0] * 2, abs=0.01
+    )
+    assert np.max(np.abs(turned(body, optimum)[:, 0])) == pytest.approx(optimum.certificate.objective, rel=1e-5)
     # what the second order was, and that all is told as it is
-    assert found.residual.orders.before[1].force.peak_N == pytest.approx(8.0 * 0.1535253 * WHOLE, rel=1e-6)
-    assert found.residual.orders.after[1].force.peak_N <= 2e-3 * WHOLE
-    assert [one.code for one in found.warnings if one.code == "second_order_remains"] == []
-    given = [{"web": f"{name} web", "mass_kg": 1.5352532, "angle_deg": 270.0} for name in ("with", "against")]
-    asked = {"machine": body, "counterweights": given, "outputs": ["residual"]}
-    exact = analyze(AnalyzeRequest.model_validate(asked)).residual.orders.after[1]
+    assert optimum.residual.orders.before[1].force.peak_N == pytest.approx(8.0 * 0.1535253 * WHOLE, rel=1e-6)
+    assert optimum.residual.orders.after[1].force.peak_N <= 2e-3 * WHOLE
+    assert [warning.code for warning in optimum.warnings if warning.code == "second_order_remains"] == []
+    counterweights = [{"web": f"{name} web", "mass_kg": 1.5352532, "angle_deg": 270.0} for name in ("with", "against")]
+    payload = {"machine": body, "counterweights": counterweights, "outputs": ["residual"]}
+    exact = analyze(AnalyzeRequest.model_validate(payload)).residual.orders.after[1]
     assert exact.force.peak_N <= 1e-6 * WHOLE
 
 
 def test_what_shafts_at_twice_the_speed_could_do_is_said() -> None:
     body, _ = _lanchester()
-    (told,) = [one for one in answer(body).warnings if one.code == "second_order_remains"]
-    assert "ask for all orders" in told.message
+    (caution,) = [warning for warning in answer(body).warnings if warning.code == "second_order_remains"]
+    assert "ask for all orders" in caution.message
     body["balance_shafts"][1]["webs"][0]["max_mass_kg"] = 0.5
-    (told,) = [one for one in answer(body, orders="all").warnings if one.code == "second_order_remains"]
-    assert "balance shafts at twice the speed leave" in told.message
+    (actual_caution,) = [
+        warning for warning in answer(body, orders="all").warnings if warning.code == "second_order_remains"
+    ]
+    assert "balance shafts at twice the speed leave" in actual_caution.message
 
 
 def test_ceilings_over_all_orders_count_the_shafts() -> None:
@@ -236,9 +244,9 @@ def test_ceilings_over_all_orders_count_the_shafts() -> None:
     whole = free.certificate.objective_without_counterweights
     # out of the middle, so that what takes the force makes a moment
     beside = in_line_four([shaft("with", 2, 0.1), shaft("against", -2, 0.1)])
-    found = answer(beside, orders="all", moment_weight=1, force_weight=0.01, force_ceiling_N=0.3 * whole)
-    assert (found.status, found.active_limits) == ("optimal", ("force_ceiling",))
-    assert np.max(np.abs(turned(beside, found)[:, 0])) == pytest.approx(0.3 * whole, rel=1e-5)
+    optimum = answer(beside, orders="all", moment_weight=1, force_weight=0.01, force_ceiling_N=0.3 * whole)
+    assert (optimum.status, optimum.active_limits) == ("optimal", ("force_ceiling",))
+    assert np.max(np.abs(turned(beside, optimum)[:, 0])) == pytest.approx(0.3 * whole, rel=1e-5)
     refused = answer(body, orders="all", force_ceiling_N=0.5 * free.certificate.objective)
     assert refused.status == "infeasible"
     assert refused.infeasibility.conflict == ("force_ceiling_N",)
@@ -259,8 +267,8 @@ def test_bearings_are_not_loaded_by_balance_shafts() -> None:
 def test_nobody_near_is_better_over_all_orders(rotation: str) -> None:
     body = _inclined(rotation)
     body["balance_shafts"] += [shaft("t", 2, 0.3, 0.4), shaft("u", -2, 0.1, 0.5)]
-    found = answer(body, orders="all", combine="max")
-    assert found.status == "optimal"
+    optimum = answer(body, orders="all", combine="max")
+    assert optimum.status == "optimal"
     # independent: sampled, and unbalances moved at random
     weight = 1.0 / 0.7
 
@@ -268,20 +276,26 @@ def test_nobody_near_is_better_over_all_orders(rotation: str) -> None:
         turn = np.array([at(body, answered, theta) for theta in np.arange(0.0, 360.0, 2.0)])
         return max(float(np.max(np.abs(turn[:, 0]))), weight * float(np.max(np.abs(turn[:, 1]))))
 
-    best = found.model_dump()
-    assert sampled(best) == pytest.approx(found.certificate.objective, rel=2e-3)
+    best = optimum.model_dump()
+    assert sampled(best) == pytest.approx(optimum.certificate.objective, rel=2e-3)
     rng = np.random.default_rng(7)
-    places = [*body["webs"], *(place for each in body["balance_shafts"] for place in each["webs"])]
+    places = [*body["webs"], *(place for balance_shaft in body["balance_shafts"] for place in balance_shaft["webs"])]
     for scale in (1e-3, 1e-2, 0.1):
-        other = found.model_dump()
+        second_answer = optimum.model_dump()
         fitted = [
-            *other["counterweights"],
-            *(one for each in other["balance_shafts"] for one in each["counterweights"]),
+            *second_answer["counterweights"],
+            *(
+                counterweight
+                for balance_shaft in second_answer["balance_shafts"]
+                for counterweight in balance_shaft["counterweights"]
+            ),
         ]
-        for place, one in zip(places, fitted, strict=True):
-            one["mass_kg"] = min(place["max_mass_kg"], one["mass_kg"] * (1.0 + scale * rng.normal()))
-            one["angle_deg"] += 90.0 * scale * rng.normal()
-        assert sampled(other) >= found.certificate.lower_bound * (1.0 - 2e-3)
+        for place, max_masses_kg in zip(places, fitted, strict=True):
+            max_masses_kg["mass_kg"] = min(
+                place["max_mass_kg"], max_masses_kg["mass_kg"] * (1.0 + scale * rng.normal())
+            )
+            max_masses_kg["angle_deg"] += 90.0 * scale * rng.normal()
+        assert sampled(second_answer) >= optimum.certificate.lower_bound * (1.0 - 2e-3)
 
 
 @pytest.mark.parametrize(

@@ -40,10 +40,10 @@ def test_it_is_kept_at_the_highest_speed(more: dict[str, Any], faster: float) ->
 
 
 def test_the_checker_counts_with_it() -> None:
-    asked = body()
-    answer = optimized(asked).model_dump(mode="json")
-    asked["machine"]["webs"][0]["max_centrifugal_force_N"] = 0.99 * MOST
-    assert any("max_mass" in each for each in broken(asked, answer))
+    payload = body()
+    answer = optimized(payload).model_dump(mode="json")
+    payload["machine"]["webs"][0]["max_centrifugal_force_N"] = 0.99 * MOST
+    assert any("max_mass" in claim for claim in broken(payload, answer))
 
 
 def test_rows_of_a_sweep_have_it() -> None:
@@ -62,8 +62,8 @@ def test_rows_of_a_sweep_have_it() -> None:
     ],
 )
 def test_bad_input_names_the_field(change: dict[str, Any], path: tuple[str, ...]) -> None:
-    asked = body()
-    asked["machine"]["webs"][0] |= change
+    payload = body()
+    payload["machine"]["webs"][0] |= change
     with pytest.raises(ValidationError) as refused:
-        OptimizeRequest.model_validate(asked)
+        OptimizeRequest.model_validate(payload)
     assert refused.value.errors()[0]["loc"][-1:] == path

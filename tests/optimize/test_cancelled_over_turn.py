@@ -50,8 +50,11 @@ def test_a_machine_that_balances_itself_needs_no_shaft(example: str, speed_ratio
     assert answer.status == "optimal"
     assert answer.certificate is not None
     assert (answer.certificate.objective, answer.certificate.relative_gap) == (0.0, 0.0)
-    webs = [*answer.counterweights, *(one for shaft in answer.balance_shafts for one in shaft.counterweights)]
-    assert [one.mass_kg for one in webs] == [0.0] * len(webs)
+    webs = [
+        *answer.counterweights,
+        *(counterweight for shaft in answer.balance_shafts for counterweight in shaft.counterweights),
+    ]
+    assert [web.mass_kg for web in webs] == [0.0] * len(webs)
 
 
 def test_the_best_of_many_optima_is_kept_while_rounds_wander() -> None:

@@ -23,8 +23,8 @@ _V8 = Path(__file__).parents[2] / "examples" / "v8-cross-plane.json"
 def twin(webs: list[dict[str, Any]] | None = None, **more: Any) -> dict[str, Any]:
     """Two cranks at right angles, a web on either side of each."""
     throws = [throw(-0.3, 0.0, [row(0.0, 21.0)], rotating=9.0), throw(0.3, 90.0, [row(0.0, 20.0)], rotating=9.0)]
-    each = webs or [web(name, z, 60.0, 0.12) for name, z in zip("abcd", (-0.4, -0.2, 0.2, 0.4), strict=True)]
-    return machine(throws, each, **({"catalogue": {"masses_kg": [3, 7.5, 16], "angle_step_deg": 60}} | more))
+    planes = webs or [web(name, z, 60.0, 0.12) for name, z in zip("abcd", (-0.4, -0.2, 0.2, 0.4), strict=True)]
+    return machine(throws, planes, **({"catalogue": {"masses_kg": [3, 7.5, 16], "angle_step_deg": 60}} | more))
 
 
 def answer(body: dict[str, Any], accuracy: dict[str, Any] | None = None, **objective: Any) -> OptimizeAnswer:
@@ -34,16 +34,16 @@ def answer(body: dict[str, Any], accuracy: dict[str, Any] | None = None, **objec
 def every_set(body: dict[str, Any], angles: list[list[float]]) -> Iterator[tuple[list[tuple[float, float]], Any]]:
     """Every set of masses and angles, and the residual that the analysis finds."""
     masses = body["catalogue"]["masses_kg"]
-    each = [[(0.0, 0.0), *product(masses, some)] for some in angles]
+    values = [[(0.0, 0.0), *product(masses, some)] for some in angles]
     bare = {name: value for name, value in body.items() if name != "catalogue"}
-    for some in product(*each):
+    for some in product(*values):
         fitted = [
             {"web": web["name"], "mass_kg": mass, "angle_deg": angle}
             for web, (mass, angle) in zip(body["webs"], some, strict=True)
             if mass > 0
         ]
-        found = analyze(AnalyzeRequest.model_validate({"machine": bare, "counterweights": fitted}))
-        yield list(some), found.residual.after
+        analysis = analyze(AnalyzeRequest.model_validate({"machine": bare, "counterweights": fitted}))
+        yield list(some), analysis.residual.after
 
 
 @pytest.mark.parametrize("combine", ["sum", "max"])
@@ -51,39 +51,41 @@ def test_the_best_of_all_sets(combine: str) -> None:
     """Independent: every set, by the analysis of each."""
     body = twin([web("a", -0.4, 60.0, 0.12), web("d", 0.4, 60.0, 0.12)])
     body["catalogue"]["angle_step_deg"] = 90
-    found = answer(body, combine=combine, force_weight=1.0, moment_weight=2.0)
+    optimum = answer(body, combine=combine, force_weight=1.0, moment_weight=2.0)
     values = []
     for _, after in every_set(body, [[0.0, 90.0, 180.0, 270.0]] * 2):
         peaks = after.force.peak_N, 2.0 * after.moment.peak_Nm
         values.append(sum(peaks) if combine == "sum" else max(peaks))
-    assert found.status == "optimal"
-    assert found.status_reason.startswith("Proven optimal: of all sets")
-    assert found.certificate.objective == pytest.approx(min(values), rel=1e-9)
-    assert found.certificate.lower_bound == pytest.approx(min(values), rel=1e-9)
-    assert (found.certificate.nodes, found.certificate.method) == (0, "exhaustion in halves")
-    assert found.certificate.continuous_lower_bound <= found.certificate.objective
-    assert found.shadow_prices == ()
-    assert found.certificate.mass_lower_bound_kg is None
+    assert optimum.status == "optimal"
+    assert optimum.status_reason.startswith("Proven optimal: of all sets")
+    assert optimum.certificate.objective == pytest.approx(min(values), rel=1e-9)
+    assert optimum.certificate.lower_bound == pytest.approx(min(values), rel=1e-9)
+    assert (optimum.certificate.nodes, optimum.certificate.method) == (0, "exhaustion in halves")
+    assert optimum.certificate.continuous_lower_bound <= optimum.certificate.objective
+    assert optimum.shadow_prices == ()
+    assert optimum.certificate.mass_lower_bound_kg is None
 
 
 def test_masses_and_angles_are_those_of_the_catalogue() -> None:
     holes = [100.0, 170.0, 260.0]
     body = twin([web("a", -0.4, 60.0, 0.12, hole_angles_deg=holes, catalogue_masses_kg=[4.0, 9.0]), web("d", 0.4, 10)])
-    found = answer(body, direction_weights={"x": 1.0, "y": 0.4})
-    own, other = found.counterweights
+    optimum = answer(body, direction_weights={"x": 1.0, "y": 0.4})
+    own, counterweight = optimum.counterweights
     assert own.mass_kg in (0.0, 4.0, 9.0)
     assert own.angle_deg in (0.0, *holes)
     # 16 kg do not fit
-    assert other.mass_kg in (0.0, 3.0, 7.5)
-    assert other.angle_from_crank_deg is None or other.angle_from_crank_deg % 60.0 == pytest.approx(0.0, abs=1e-9)
+    assert counterweight.mass_kg in (0.0, 3.0, 7.5)
+    assert counterweight.angle_from_crank_deg is None or counterweight.angle_from_crank_deg % 60.0 == pytest.approx(
+        0.0, abs=1e-9
+    )
 
 
 def test_counts() -> None:
     free = answer(twin())
     few = answer(twin(max_counterweights=2))
     same = answer(twin(catalogue={"masses_kg": [3, 7.5, 16], "angle_step_deg": 60, "max_part_numbers": 1}))
-    assert sum(one.mass_kg > 0 for one in few.counterweights) <= 2
-    assert len({one.mass_kg for one in same.counterweights} - {0.0}) <= 1
+    assert sum(counterweight.mass_kg > 0 for counterweight in few.counterweights) <= 2
+    assert len({counterweight.mass_kg for counterweight in same.counterweights} - {0.0}) <= 1
     assert free.certificate.objective <= min(few.certificate.objective, same.certificate.objective)
     none = answer(twin(max_counterweights=0))
     assert none.total_mass_kg == 0.0
@@ -93,19 +95,19 @@ def test_counts() -> None:
 def test_budget_and_sectors_hold() -> None:
     sector = {"centre_deg": 180, "half_angle_deg": 50}
     webs = [web("a", -0.4, 60.0, 0.12, sector=sector), web("d", 0.4, 60.0, 0.12)]
-    found = answer(twin(webs, max_total_mass_kg=20.0))
-    assert found.total_mass_kg <= 20.0
-    assert found.counterweights[0].angle_deg in (0.0, 180.0)
+    optimum = answer(twin(webs, max_total_mass_kg=20.0))
+    assert optimum.total_mass_kg <= 20.0
+    assert optimum.counterweights[0].angle_deg in (0.0, 180.0)
 
 
 def test_steps_of_mass() -> None:
-    found = answer(twin(catalogue={"mass_step_kg": 0.25, "angle_step_deg": 10}), {"relative_gap": 0.05})
-    for one in found.counterweights:
-        assert one.mass_kg * 4.0 == pytest.approx(round(one.mass_kg * 4.0), abs=1e-9)
-        assert one.mass_kg <= 60.0
-    assert found.status == "optimal"
-    assert found.certificate.relative_gap <= 0.05
-    assert found.certificate.continuous_lower_bound <= found.certificate.lower_bound
+    optimum = answer(twin(catalogue={"mass_step_kg": 0.25, "angle_step_deg": 10}), {"relative_gap": 0.05})
+    for counterweight in optimum.counterweights:
+        assert counterweight.mass_kg * 4.0 == pytest.approx(round(counterweight.mass_kg * 4.0), abs=1e-9)
+        assert counterweight.mass_kg <= 60.0
+    assert optimum.status == "optimal"
+    assert optimum.certificate.relative_gap <= 0.05
+    assert optimum.certificate.continuous_lower_bound <= optimum.certificate.lower_bound
 
 
 def test_the_best_rounded_set_is_not_the_rounded_best() -> None:
@@ -116,8 +118,12 @@ def test_the_best_rounded_set_is_not_the_rounded_best() -> None:
     del body["machine"]["catalogue"]
     smooth = optimize(OptimizeRequest.model_validate(body))
     rounded = [
-        {"web": one.web, "mass_kg": round(4 * one.mass_kg) / 4, "angle_deg": 5 * round(one.angle_deg / 5)}
-        for one in smooth.counterweights
+        {
+            "web": counterweight.web,
+            "mass_kg": round(4 * counterweight.mass_kg) / 4,
+            "angle_deg": 5 * round(counterweight.angle_deg / 5),
+        }
+        for counterweight in smooth.counterweights
     ]
     by_hand = analyze(AnalyzeRequest.model_validate({"machine": body["machine"], "counterweights": rounded}))
     assert best.status == "optimal"
@@ -125,56 +131,56 @@ def test_the_best_rounded_set_is_not_the_rounded_best() -> None:
 
 
 def test_ceilings_out_of_reach_of_all_masses_are_proven_by_multipliers() -> None:
-    found = answer(twin(), force_ceiling_N=1.0)
-    assert found.status == "infeasible"
-    assert found.infeasibility.multipliers.conflict is not None
+    optimum = answer(twin(), force_ceiling_N=1.0)
+    assert optimum.status == "infeasible"
+    assert optimum.infeasibility.multipliers.conflict is not None
 
 
 def test_ceilings_that_only_the_catalogue_does_not_keep() -> None:
     smooth = answer({name: value for name, value in twin().items() if name != "catalogue"})
     ceiling = smooth.residual.after.force.peak_N * 1.0001
-    found = answer(twin(), force_ceiling_N=ceiling, moment_ceiling_Nm=smooth.residual.after.moment.peak_Nm * 1.0001)
-    assert found.status == "infeasible"
-    assert "no set of counterweights keeps the ceilings" in found.status_reason
-    assert found.infeasibility.multipliers.conflict is None
-    assert found.infeasibility.closest.counterweights[0].mass_kg in (0.0, 3.0, 7.5, 16.0)
-    assert found.certificate is None
+    optimum = answer(twin(), force_ceiling_N=ceiling, moment_ceiling_Nm=smooth.residual.after.moment.peak_Nm * 1.0001)
+    assert optimum.status == "infeasible"
+    assert "no set of counterweights keeps the ceilings" in optimum.status_reason
+    assert optimum.infeasibility.multipliers.conflict is None
+    assert optimum.infeasibility.closest.counterweights[0].mass_kg in (0.0, 3.0, 7.5, 16.0)
+    assert optimum.certificate is None
 
 
 def test_the_gap_is_a_thousandth_where_none_is_said() -> None:
-    said = OptimizeRequest.model_validate({"machine": twin(), "accuracy": {"relative_gap": 1e-5}})
+    body = OptimizeRequest.model_validate({"machine": twin(), "accuracy": {"relative_gap": 1e-5}})
     silent = OptimizeRequest.model_validate({"machine": twin(), "accuracy": {"time_limit_s": 2}})
     again = OptimizeRequest.model_validate_json(silent.model_dump_json())
     smooth = {name: value for name, value in twin().items() if name != "catalogue"}
-    assert said.accuracy.relative_gap == 1e-5
+    assert body.accuracy.relative_gap == 1e-5
     assert silent.accuracy.relative_gap == again.accuracy.relative_gap == 1e-3
     assert OptimizeRequest.model_validate({"machine": smooth}).accuracy.relative_gap == 1e-6
 
 
 def test_a_search_that_runs_out_of_time_says_so() -> None:
     body = twin(catalogue={"mass_step_kg": 0.37, "angle_step_deg": 7.5})
-    found = answer(body, {"relative_gap": 1e-9, "time_limit_s": 0.01})
-    assert found.status == "inaccurate"
-    assert "time_limit_s" in found.status_reason
-    proof = found.certificate
+    optimum = answer(body, {"relative_gap": 1e-9, "time_limit_s": 0.01})
+    assert optimum.status == "inaccurate"
+    assert "time_limit_s" in optimum.status_reason
+    proof = optimum.certificate
     assert proof.continuous_lower_bound <= proof.lower_bound <= proof.objective
 
 
 def test_of_an_ample_choice_it_says_that_nothing_closer_can_be_proven() -> None:
     # any masses reach the floor, which no tree can raise until all sets are compared
     body = twin(catalogue={"mass_step_kg": 0.37, "angle_step_deg": 7.5})
-    found = answer(body, {"relative_gap": 1e-9, "time_limit_s": 0.01})
-    proof = found.certificate
-    assert (found.status, proof.lower_bound) == ("inaccurate", proof.continuous_lower_bound)
-    assert "no closer bound was proven" in found.status_reason
+    optimum = answer(body, {"relative_gap": 1e-9, "time_limit_s": 0.01})
+    proof = optimum.certificate
+    assert (optimum.status, proof.lower_bound) == ("inaccurate", proof.continuous_lower_bound)
+    assert "no closer bound was proven" in optimum.status_reason
 
 
 def test_the_checker_says_that_it_does_not_cover_the_tree() -> None:
     body = {"machine": twin()}
-    found = json.loads(optimize(OptimizeRequest.model_validate(body)).model_dump_json())
-    assert verdict(body, found) == "not covered"
-    found["counterweights"][0]["mass_kg"] = 16.5
-    assert verdict(body, found) == "broken"
+    document = json.loads(optimize(OptimizeRequest.model_validate(body)).model_dump_json())
+    assert verdict(body, document) == "not covered"
+    document["counterweights"][0]["mass_kg"] = 16.5
+    assert verdict(body, document) == "broken"
 
 
 def test_a_scroll_counts_from_its_eccentric() -> None:
@@ -183,8 +189,8 @@ def test_a_scroll_counts_from_its_eccentric() -> None:
         "anti_rotation": {"type": "oldham", "mass_kg": 0.1, "axis_deg": 0, "position_m": 0},
         "webs": [web("w", 0.0, 1.0, 0.03)], "catalogue": {"mass_step_kg": 0.01, "angle_step_deg": 90},
     }  # fmt: skip
-    (one,) = answer(body).counterweights
-    assert one.angle_deg == 180.0
+    (counterweight,) = answer(body).counterweights
+    assert counterweight.angle_deg == 180.0
 
 
 WEB = {"name": "a", "position_m": 0.0, "counterweight_radius_m": 0.1, "max_mass_kg": 5.0}
@@ -221,12 +227,12 @@ def test_refusals_name_the_field(changes: dict[str, Any], web_changes: dict[str,
     body = machine([throw(0.0, 0.0, [])], [WEB | web_changes], **changes)
     with pytest.raises(ValidationError) as caught:
         OptimizeRequest.model_validate({"machine": body})
-    found = [
+    texts = [
         ".".join(str(part) for part in (*error["loc"], *problem.path) if part != "reciprocating")
         for error in caught.value.errors()
         for problem in error["ctx"]["problems"]
     ]
-    assert path in found
+    assert path in texts
 
 
 @pytest.mark.parametrize("field", ["mass_step_kg", "angle_step_deg"])
@@ -269,8 +275,8 @@ def test_what_does_not_go_with_a_catalogue() -> None:
 @pytest.mark.parametrize("time_limit_s", [1e-9, 30.0])
 def test_nothing_to_choose_for(time_limit_s: float) -> None:
     bare = machine(twin()["throws"], [], catalogue={"masses_kg": [3], "angle_step_deg": 60})
-    found = answer(bare, {"time_limit_s": time_limit_s})
-    assert (found.status, found.counterweights, found.total_mass_kg) == ("optimal", (), 0.0)
+    optimum = answer(bare, {"time_limit_s": time_limit_s})
+    assert (optimum.status, optimum.counterweights, optimum.total_mass_kg) == ("optimal", (), 0.0)
 
 
 @pytest.mark.parametrize("over", [0.0, 2e-16])
@@ -294,10 +300,10 @@ def test_a_hole_at_the_edge_of_its_sector(centre: float) -> None:
     crank = [throw(0.0, centre + 220.0, [], rotating=10.0)]
     for turns in (0.0, 360.0, -1080.0):
         hole = web("a", 0.0, 5.0, 0.12, hole_angles_deg=[centre + 30.1 + turns], **held)
-        found = answer(machine(crank, [hole], catalogue={"masses_kg": [5.0]}))
+        optimum = answer(machine(crank, [hole], catalogue={"masses_kg": [5.0]}))
         # analytic: it is where counterweights of any angle would be, so that the bound is what is reached
-        assert found.status == "optimal"
-        assert found.certificate.continuous_lower_bound == pytest.approx(found.certificate.objective, rel=1e-6)
+        assert optimum.status == "optimal"
+        assert optimum.certificate.continuous_lower_bound == pytest.approx(optimum.certificate.objective, rel=1e-6)
     beyond = web("a", 0.0, 5.0, 0.12, hole_angles_deg=[centre + 30.1 + 1e-9], **held)
     with pytest.raises(ValidationError, match="outside the sector"):
         answer(machine(crank, [beyond], catalogue={"masses_kg": [5.0]}))

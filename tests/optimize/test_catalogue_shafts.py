@@ -22,16 +22,16 @@ FORCE = {"moment_weight": 0}
 
 def answer(machine: dict[str, Any], goal: dict[str, Any], **more: Any) -> OptimizeAnswer:
     """The answer, no claim of which the independent checker breaks; what is on the crankshaft is of the catalogue."""
-    found = sound_answer({"machine": machine, "objective": goal, **more})
+    optimum = sound_answer({"machine": machine, "objective": goal, **more})
     masses = machine["catalogue"].get("masses_kg")
-    for one in found.counterweights:
-        assert one.fixed or one.mass_kg == 0 or masses is None or one.mass_kg in masses
-    return found
+    for counterweight in optimum.counterweights:
+        assert counterweight.fixed or counterweight.mass_kg == 0 or masses is None or counterweight.mass_kg in masses
+    return optimum
 
 
-def proof_of(found: OptimizeAnswer) -> Certificate:
-    assert found.certificate is not None
-    return found.certificate
+def proof_of(optimum: OptimizeAnswer) -> Certificate:
+    assert optimum.certificate is not None
+    return optimum.certificate
 
 
 @pytest.mark.parametrize(
@@ -42,11 +42,11 @@ def proof_of(found: OptimizeAnswer) -> Certificate:
 )
 def test_a_lanchester_shaft_cancels_its_half_whatever_the_casting(masses: list[float], left: float) -> None:
     machine = single([shaft("back", -1, radius=0.05)], catalogue={"masses_kg": masses, "angle_step_deg": 30})
-    found = answer(machine, FORCE)
-    assert found.status == "optimal"
-    assert proof_of(found).objective == pytest.approx(left * WHOLE, abs=3e-6 * WHOLE)
-    assert proof_of(found).lower_bound == pytest.approx(left * WHOLE, abs=1.1e-3 * WHOLE)
-    assert found.balance_shafts_mass_kg == pytest.approx(10.0, rel=2e-5)
+    optimum = answer(machine, FORCE)
+    assert optimum.status == "optimal"
+    assert proof_of(optimum).objective == pytest.approx(left * WHOLE, abs=3e-6 * WHOLE)
+    assert proof_of(optimum).lower_bound == pytest.approx(left * WHOLE, abs=1.1e-3 * WHOLE)
+    assert optimum.balance_shafts_mass_kg == pytest.approx(10.0, rel=2e-5)
 
 
 def sets(machine: dict[str, Any]) -> Iterator[np.ndarray]:
@@ -69,7 +69,7 @@ def best_by_force(machine: dict[str, Any], combine: str, ceilings: dict[str, flo
     there = cp.Parameter(webs, complex=True)
     rest = cp.Variable(len(places) - webs, complex=True)
     terms = order.terms(cp.hstack([there, rest]))
-    sums = [sum(cp.abs(each) for each in both) for both in terms]
+    sums = [sum(cp.abs(value) for value in both) for both in terms]
     goals = [sums[0], sums[1] / order.span]
     limits = [cp.abs(rest[k]) <= place["max_mass_kg"] for k, place in enumerate(places[webs:])]
     for name, most in ceilings.items():
@@ -108,9 +108,9 @@ def test_no_set_is_better(seed: int, combine: str, back: int) -> None:
     machine = two_throws(seed, [shaft("a", back, 0.1, 12.0), shaft("b", -1, 0.25, 5.0)][: 1 + seed % 2])
     if seed % 3 == 2:
         machine["max_counterweights"] = 2
-    found = answer(machine, {"combine": combine}, accuracy={"relative_gap": 1e-6, "time_limit_s": 20})
-    best, proof = best_by_force(machine, combine, {}), proof_of(found)
-    assert found.status == "optimal"
+    optimum = answer(machine, {"combine": combine}, accuracy={"relative_gap": 1e-6, "time_limit_s": 20})
+    best, proof = best_by_force(machine, combine, {}), proof_of(optimum)
+    assert optimum.status == "optimal"
     assert proof.lower_bound is not None
     assert proof.objective == pytest.approx(best, rel=1e-5, abs=3e-6 * (proof.yardstick or 1.0))
     assert proof.lower_bound <= best * (1 + 1e-6)
@@ -124,12 +124,12 @@ def test_ceilings_along_axes_hold_and_no_set_is_better_under_them(share: float) 
     assert free.residual.after is not None
     least = free.residual.after.force.peak_x_N
     ceilings = {"force_ceiling_x_N": least / share, "force_ceiling_y_N": 2.0 * least}
-    found = answer(machine, ceilings, accuracy={"relative_gap": 1e-6, "time_limit_s": 20})
+    optimum = answer(machine, ceilings, accuracy={"relative_gap": 1e-6, "time_limit_s": 20})
     best = best_by_force(machine, "sum", ceilings)
     if best == np.inf:
-        assert found.status == "infeasible"
+        assert optimum.status == "infeasible"
     else:
-        assert proof_of(found).objective == pytest.approx(best, rel=2e-5)
+        assert proof_of(optimum).objective == pytest.approx(best, rel=2e-5)
 
 
 @pytest.mark.parametrize("rotation", part(2, ["cw", "ccw"]))
@@ -137,13 +137,13 @@ def test_no_set_is_better_over_all_orders(rotation: str) -> None:
     # independent: all sets, each with a program of cvxpy at every third degree of forces from the definitions
     machine = two_throws(1, [shaft("a", -1, 0.1, 12.0), shaft("b", 2, 0.0, 3.0)]) | {"rotation": rotation}
     machine["webs"] = machine["webs"][:2]
-    found = answer(machine, {"orders": "all", "moment_weight": 0}, accuracy={"time_limit_s": 20})
+    optimum = answer(machine, {"orders": "all", "moment_weight": 0}, accuracy={"time_limit_s": 20})
     places = every_place(machine)
     angles = np.arange(0, 360, 3)
 
     def forces(weights: np.ndarray) -> np.ndarray:
-        fitted = [{"mass_kg": abs(one), "angle_deg": np.rad2deg(np.angle(one))} for one in weights]
-        body = {"counterweights": fitted[:2], "balance_shafts": [{"counterweights": [one]} for one in fitted[2:]]}
+        fitted = [{"mass_kg": abs(weight), "angle_deg": np.rad2deg(np.angle(weight))} for weight in weights]
+        body = {"counterweights": fitted[:2], "balance_shafts": [{"counterweights": [fields]} for fields in fitted[2:]]}
         return np.array([at(machine, body, theta)[0] for theta in angles])
 
     fixed = forces(np.zeros(4, complex))
@@ -156,8 +156,8 @@ def test_no_set_is_better_over_all_orders(rotation: str) -> None:
         there.value = (fixed + unit[:, :2] @ some) / 1e3
         problem.solve(solver=cp.CLARABEL)
         best = min(best, float(problem.value) * 1e3)
-    proof = proof_of(found)
-    assert found.status == "optimal"
+    proof = proof_of(optimum)
+    assert optimum.status == "optimal"
     assert proof.lower_bound is not None
     # samples miss the peak by little
     assert proof.lower_bound <= best * 1.003
@@ -168,10 +168,10 @@ def test_castings_and_least_masses_on_a_shaft_are_chosen_together() -> None:
     # analytic: of castings of 4.5 kg one leaves a twentieth of the whole, and 11 kg in place of 10 another
     machine = single([shaft("back", -1, radius=0.05, max_mass=40.0, min_fitted_mass_kg=11.0)])
     machine["catalogue"] = {"masses_kg": [4.5], "angle_step_deg": 30}
-    found = answer(machine, FORCE)
-    assert found.status == "optimal"
-    assert proof_of(found).objective == pytest.approx(0.1 * WHOLE, rel=1e-6)
-    assert found.balance_shafts_mass_kg == pytest.approx(11.0)
+    optimum = answer(machine, FORCE)
+    assert optimum.status == "optimal"
+    assert proof_of(optimum).objective == pytest.approx(0.1 * WHOLE, rel=1e-6)
+    assert optimum.balance_shafts_mass_kg == pytest.approx(11.0)
 
 
 def test_equal_castings_and_fixed_weights_stand_beside_it() -> None:
@@ -180,11 +180,11 @@ def test_equal_castings_and_fixed_weights_stand_beside_it() -> None:
     machine["webs"][2] |= {"fixed": {"mass_kg": 1.0, "angle_deg": 270.0}}
     machine["web_groups"] = [{"name": "pair", "webs": ["a", "b"]}]
     machine["catalogue"] = {"masses_kg": [1.8, 3.0], "angle_step_deg": 45}
-    found = answer(machine, FORCE)
+    optimum = answer(machine, FORCE)
     # analytic: two of 1.8 kg and 1 kg of the 5 kg that turn with the crankshaft
-    assert proof_of(found).objective == pytest.approx(0.04 * WHOLE, abs=3e-6 * WHOLE)
-    assert [one.mass_kg for one in found.counterweights] == [1.8, 1.8, 1.0]
-    assert found.balance_shafts_mass_kg == pytest.approx(10.0, rel=2e-5)
+    assert proof_of(optimum).objective == pytest.approx(0.04 * WHOLE, abs=3e-6 * WHOLE)
+    assert [counterweight.mass_kg for counterweight in optimum.counterweights] == [1.8, 1.8, 1.0]
+    assert optimum.balance_shafts_mass_kg == pytest.approx(10.0, rel=2e-5)
 
 
 STOCK = {"masses_kg": [2.0, 4.5], "angle_step_deg": 30}
@@ -237,20 +237,23 @@ CASES = [
 def test_no_claim_is_broken(machine: dict[str, Any], goal: dict[str, Any], more: dict[str, Any]) -> None:
     if "alternatives" in more and "priorities" in goal:
         more = {}
-    found = answer(machine, goal, accuracy={"relative_gap": 1e-2, "time_limit_s": 0.5}, **more)
-    assert found.status in ("optimal", "inaccurate")
-    for one in found.alternatives:
-        assert one.objective <= proof_of(found).objective * (1 + one.allowance) * (1 + 1e-6)
-        carried = [*one.counterweights, *(each for of in one.balance_shafts for each in of.counterweights)]
-        assert one.total_mass_kg == pytest.approx(sum(each.mass_kg for each in carried))
+    optimum = answer(machine, goal, accuracy={"relative_gap": 1e-2, "time_limit_s": 0.5}, **more)
+    assert optimum.status in ("optimal", "inaccurate")
+    for alternative in optimum.alternatives:
+        assert alternative.objective <= proof_of(optimum).objective * (1 + alternative.allowance) * (1 + 1e-6)
+        carried = [
+            *alternative.counterweights,
+            *(counterweight for of in alternative.balance_shafts for counterweight in of.counterweights),
+        ]
+        assert alternative.total_mass_kg == pytest.approx(sum(counterweight.mass_kg for counterweight in carried))
 
 
 def test_tolerances_of_masses_and_angles_scatter_castings_and_shafts() -> None:
     # analytic: half of the mass on either shaft is off by its share
-    found = answer(
+    optimum = answer(
         BACK | {"catalogue": {"masses_kg": [2.5], "angle_step_deg": 30}}, FORCE, tolerances={"mass_relative": 0.05}
     )
-    assert proof_of(found).objective == pytest.approx(0.05 * WHOLE, rel=1e-3)
+    assert proof_of(optimum).objective == pytest.approx(0.05 * WHOLE, rel=1e-3)
 
 
 def test_what_is_lightest_is_that_of_all_shafts() -> None:
@@ -261,11 +264,11 @@ def test_what_is_lightest_is_that_of_all_shafts() -> None:
         "force_ceiling_y_N": 0.75 * WHOLE,
         "priorities": [{"goal": "mass"}, {"goal": "external"}],
     }
-    found = answer(BACK, goal)
+    optimum = answer(BACK, goal)
     # along y what is there is 1, and a quarter of it is to go: 2.5 kg at the radius of the crank are the lightest
-    total = found.total_mass_kg + found.balance_shafts_mass_kg
-    assert found.status in ("optimal", "inaccurate")
-    assert proof_of(found).goals[0].lower_bound <= total * (1 + 1e-9)
+    total = optimum.total_mass_kg + optimum.balance_shafts_mass_kg
+    assert optimum.status in ("optimal", "inaccurate")
+    assert proof_of(optimum).goals[0].lower_bound <= total * (1 + 1e-9)
     assert total <= 4.5 + 1e-6
 
 
@@ -289,8 +292,8 @@ def test_castings_that_keep_no_ceilings_beside_any_shaft_are_infeasible() -> Non
     for share, status in ((0.51, "optimal"), (0.49, "infeasible")):
         machine = single([shaft("back", -1)], catalogue={"masses_kg": [11.0], "angle_step_deg": 90})
         goal = {"moment_weight": 0, "force_ceiling_x_N": share * WHOLE, "force_ceiling_y_N": share * WHOLE}
-        found = optimize(OptimizeRequest.model_validate({"machine": machine, "objective": goal}))
-        assert found.status == status, found.status_reason
+        optimum = optimize(OptimizeRequest.model_validate({"machine": machine, "objective": goal}))
+        assert optimum.status == status, optimum.status_reason
 
 
 def cast_shaft(angle_deg: float = 265.0, **more: Any) -> dict[str, Any]:
@@ -303,12 +306,12 @@ def test_castings_on_a_shaft_beside_any_masses_on_the_crankshaft() -> None:
     # analytic: of 10 kg at half the radius 9 kg at 5 degrees from where they are called for leave |10 - 9 e^{j5}| / 20;
     # along the crank nothing is left
     machine = single([cast_shaft()], webs=2)
-    found = sound_answer({"machine": machine, "objective": FORCE})
+    optimum = sound_answer({"machine": machine, "objective": FORCE})
     left = abs(10.0 - 9.0 * np.exp(1j * np.deg2rad(5.0))) / 20.0
-    assert proof_of(found).objective == pytest.approx(left * WHOLE, rel=3e-5)
-    (one,) = found.balance_shafts[0].counterweights
-    assert (one.mass_kg, one.angle_deg) == (9.0, pytest.approx(265.0, abs=1e-9))
-    assert found.total_mass_kg == pytest.approx(5.0, rel=1e-5)
+    assert proof_of(optimum).objective == pytest.approx(left * WHOLE, rel=3e-5)
+    (counterweight,) = optimum.balance_shafts[0].counterweights
+    assert (counterweight.mass_kg, counterweight.angle_deg) == (9.0, pytest.approx(265.0, abs=1e-9))
+    assert optimum.total_mass_kg == pytest.approx(5.0, rel=1e-5)
 
 
 @pytest.mark.parametrize("orders", ["first", "all"])
@@ -318,38 +321,40 @@ def test_castings_on_all_shafts_are_the_best_of_all_sets(orders: str, rotation: 
     machine = single([cast_shaft(250.0)], webs=1) | {"rotation": rotation}
     machine["webs"][0] |= {"hole_angles_deg": [240.0, 280.0], "max_mass_kg": 20.0}
     machine["catalogue"] = {"masses_kg": [3.0, 5.5]}
-    found = answer(machine, {"orders": orders, "moment_weight": 0}, accuracy={"relative_gap": 1e-6, "time_limit_s": 20})
+    optimum = answer(
+        machine, {"orders": orders, "moment_weight": 0}, accuracy={"relative_gap": 1e-6, "time_limit_s": 20}
+    )
     best = np.inf
     crank = [(0.0, 0.0), *product([3.0, 5.5], [240.0, 280.0])]
     on_shaft = [(0.0, 0.0), *product([9.0, 13.0], [250.0, 90.0])]
-    for own, other in product(crank, on_shaft):
-        of = [[{"mass_kg": mass, "angle_deg": angle}] for mass, angle in (own, other)]
+    for own, pair in product(crank, on_shaft):
+        of = [[{"mass_kg": mass, "angle_deg": angle}] for mass, angle in (own, pair)]
         body = {"counterweights": of[0], "balance_shafts": [{"counterweights": of[1]}]}
         turn = [abs(at(machine, body, theta, first=orders == "first")[0]) for theta in range(0, 360, 2)]
         best = min(best, max(turn))
-    assert found.status == "optimal"
-    assert best * (1 - 1e-9) <= proof_of(found).objective <= best * 1.001
+    assert optimum.status == "optimal"
+    assert best * (1 - 1e-9) <= proof_of(optimum).objective <= best * 1.001
 
 
 def test_steps_of_angle_count_from_the_x_axis_on_a_shaft() -> None:
     machine = single([shaft("back", -1, radius=0.05, max_mass=50.0, catalogue_masses_kg=[10.0])], webs=1)
     machine["webs"][0] |= {"max_mass_kg": 20.0}
     machine["catalogue"] = {"masses_kg": [5.0], "angle_step_deg": 90}
-    found = answer(machine, FORCE)
+    optimum = answer(machine, FORCE)
     # analytic: both halves are there
-    assert proof_of(found).objective == pytest.approx(0.0, abs=1e-9 * WHOLE)
-    assert found.balance_shafts[0].counterweights[0].angle_deg == 270.0
+    assert proof_of(optimum).objective == pytest.approx(0.0, abs=1e-9 * WHOLE)
+    assert optimum.balance_shafts[0].counterweights[0].angle_deg == 270.0
 
 
 def test_counts_are_of_castings_wherever_they_are() -> None:
     machine = single([cast_shaft(270.0)], webs=2, max_counterweights=1)
     machine["webs"] = [web(name, 0.0, 20.0) for name in ("a", "b")]
     machine["catalogue"] = {"masses_kg": [2.5, 5.0], "angle_step_deg": 90}
-    found = answer(machine, FORCE)
-    every_one = [*found.counterweights, *found.balance_shafts[0].counterweights]
+    optimum = answer(machine, FORCE)
+    counterweights = [*optimum.counterweights, *optimum.balance_shafts[0].counterweights]
     # analytic: 5 kg on the crankshaft leave what turns backwards, and are better by a tenth than 9 kg on the shaft
-    assert [one.mass_kg for one in every_one if one.mass_kg > 0] == [5.0]
-    assert proof_of(found).objective == pytest.approx(0.5 * WHOLE, rel=1e-9)
+    assert [counterweight.mass_kg for counterweight in counterweights if counterweight.mass_kg > 0] == [5.0]
+    assert proof_of(optimum).objective == pytest.approx(0.5 * WHOLE, rel=1e-9)
 
 
 @pytest.mark.parametrize(
@@ -382,7 +387,7 @@ def test_a_choice_may_use_the_tolerance_of_a_ceiling() -> None:
         "balance_shafts": [shaft("b", -2, -490.0, 4.0, x_m=1e3, y_m=3e3, radius=500.0, **castings)],
     }
     goal = {"roll_weight": 1e-4, "force_weight": 1e-9, "moment_weight": 1e-4, "force_ceiling_x_N": 0.0}
-    found = sound_answer({"machine": machine, "objective": goal})
-    assert found.status == "optimal"
+    optimum = sound_answer({"machine": machine, "objective": goal})
+    assert optimum.status == "optimal"
     # analytic: what turns is taken in another plane
-    assert found.counterweights[0].mass_kg == pytest.approx(11.52, rel=1e-8)
+    assert optimum.counterweights[0].mass_kg == pytest.approx(11.52, rel=1e-8)

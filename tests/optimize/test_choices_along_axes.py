@@ -9,7 +9,7 @@ import pytest
 from optimizer.choices.discrete import branch, search
 from optimizer.choices.discrete.search import TREE
 from tests import night
-from tests.optimize.choices import DEGREE, Loads, asked, certified, chosen, every_set, twin, two_webs
+from tests.optimize.choices import DEGREE, Loads, certified, chosen, every_set, request_body, twin, two_webs
 from tests.optimize.whole_turn import ALONE
 from tests.verification.checking import optimized
 
@@ -30,10 +30,10 @@ def of_frame(machine: dict[str, Any], u: np.ndarray) -> tuple[np.ndarray, np.nda
         s = np.sqrt(length**2 - (r * np.sin(phi)) ** 2)
         rise = -(r**2) * np.sin(phi) * np.cos(phi)
         bent = -r * np.cos(phi) - r**2 * np.cos(2 * phi) / s - rise**2 / s**3
-        each = throw["rotating_mass_kg"] * r * np.exp(1j * crank) - row["reciprocating_mass_kg"] * bent * np.exp(
-            1j * axis
-        )
-        force, moment = force + each, moment + each * throw["position_m"]
+        rotating_mass_kg = throw["rotating_mass_kg"] * r * np.exp(1j * crank) - row[
+            "reciprocating_mass_kg"
+        ] * bent * np.exp(1j * axis)
+        force, moment = force + rotating_mass_kg, moment + rotating_mass_kg * throw["position_m"]
     square = (machine["speed_rpm"] * np.pi / 30.0) ** 2
     place = np.array([web["position_m"] for web in machine["webs"]])
     turning = np.exp(1j * theta)
@@ -47,8 +47,8 @@ def along(machine: dict[str, Any], u: np.ndarray) -> dict[str, np.ndarray]:
 
 
 def along_axes(force: np.ndarray, moment: np.ndarray) -> dict[str, np.ndarray]:
-    each = (force.real, force.imag, moment.real, moment.imag)
-    return {name: np.max(np.abs(one), axis=-1) for name, one in zip(CEILINGS, each, strict=True)}
+    entry = (force.real, force.imag, moment.real, moment.imag)
+    return {name: np.max(np.abs(values), axis=-1) for name, values in zip(CEILINGS, entry, strict=True)}
 
 
 @cache
@@ -88,17 +88,17 @@ def test_no_set_by_hand_is_better(
     if by_tree:
         monkeypatch.setattr(search, "_SUMS", 0)
         monkeypatch.setattr(branch, "_SETS", 50)
-    machine, (value, each) = plane_at_0(webs), every_value(webs)
+    machine, (value, fields) = plane_at_0(webs), every_value(webs)
     least = np.argmin(value)
-    ceilings = {name: float(part * each[name][least]) for name, part in share.items()}
-    found, proof = certified(asked(machine, 1e-3, **GOAL, **ceilings))
+    ceilings = {name: float(part * fields[name][least]) for name, part in share.items()}
+    optimum, proof = certified(request_body(machine, 1e-3, **GOAL, **ceilings))
     assert (proof.method == TREE) == by_tree
-    best = float(np.min(value[np.all([each[name] <= ceiling for name, ceiling in ceilings.items()], axis=0)]))
+    best = float(np.min(value[np.all([fields[name] <= ceiling for name, ceiling in ceilings.items()], axis=0)]))
     assert best > 1.05 * float(value[least])
     assert best * (1 - 1e-9) <= proof.objective <= best * (1 + DEGREE + 1e-3)
     assert proof.lower_bound is not None
     assert proof.lower_bound <= best * (1 + DEGREE)
-    here = along(machine, chosen(found))
+    here = along(machine, chosen(optimum))
     assert all(float(here[name][0]) <= ceiling * (1 + 1e-9) for name, ceiling in ceilings.items())
 
 
@@ -106,11 +106,11 @@ def test_none_keeps_them() -> None:
     """Independent: no set comes below the least of all sets, though other masses do."""
     machine = plane_at_0()
     least = float(np.min(every_value(4)[1]["moment_ceiling_y_Nm"]))
-    found = optimized(asked(machine, **GOAL, moment_ceiling_y_Nm=0.999 * least))
-    assert found.status == "infeasible"
-    assert found.status_reason.startswith("Proven infeasible: no set")
-    assert found.infeasibility is not None
-    assert found.infeasibility.conflict == ("moment_ceiling_y_Nm",)
+    answer = optimized(request_body(machine, **GOAL, moment_ceiling_y_Nm=0.999 * least))
+    assert answer.status == "infeasible"
+    assert answer.status_reason.startswith("Proven infeasible: no set")
+    assert answer.infeasibility is not None
+    assert answer.infeasibility.conflict == ("moment_ceiling_y_Nm",)
 
 
 @night.at_night
@@ -118,20 +118,22 @@ def test_least_masses() -> None:
     """Independent: of both of two webs fitted, one or none, those of a grid that keep a ceiling."""
     machine = two_webs()
     machine["reference_plane_m"] = 0.0
-    free, _ = certified(asked(machine, 1e-3, bearing_weight=1, orders="all", **ALONE))
+    free, _ = certified(request_body(machine, 1e-3, bearing_weight=1, orders="all", **ALONE))
     ceiling = 0.95 * float(along(machine, chosen(free))["force_ceiling_y_N"][0])
     goal = {"bearing_weight": 1, "orders": "all", **ALONE, "force_ceiling_y_N": ceiling}
-    found, proof = certified(asked(machine, 1e-3, **goal))
-    assert all(one.mass_kg == 0.0 or one.mass_kg >= 14.0 for one in found.counterweights)
-    assert float(along(machine, chosen(found))["force_ceiling_y_N"][0]) <= ceiling * (1 + 1e-9)
+    optimum, proof = certified(request_body(machine, 1e-3, **goal))
+    assert all(
+        counterweight.mass_kg == 0.0 or counterweight.mass_kg >= 14.0 for counterweight in optimum.counterweights
+    )
+    assert float(along(machine, chosen(optimum))["force_ceiling_y_N"][0]) <= ceiling * (1 + 1e-9)
     turned = np.exp(1j * np.deg2rad(np.arange(0.0, 360.0, 8.0)))
-    one = 0.12 * np.append(0.0, np.multiply.outer(np.linspace(14.0, 16.0, 3), turned).ravel())
+    values = 0.12 * np.append(0.0, np.multiply.outer(np.linspace(14.0, 16.0, 3), turned).ravel())
     loads, best = Loads(machine), np.inf
-    for each in one:
-        u = np.stack([np.full(one.size, each), one], axis=-1)
-        kept = along(machine, u)["force_ceiling_y_N"] <= ceiling
-        if np.any(kept):
-            best = min(best, float(np.min(loads.peak(u[kept]))))
+    for value in values:
+        u = np.stack([np.full(values.size, value), values], axis=-1)
+        mask = along(machine, u)["force_ceiling_y_N"] <= ceiling
+        if np.any(mask):
+            best = min(best, float(np.min(loads.peak(u[mask]))))
     # a grid is above what it is a grid of
     assert proof.lower_bound is not None
     assert proof.lower_bound <= best

@@ -21,10 +21,10 @@ from tests.optimize.choices import (
     FAST,
     SLOW,
     Loads,
-    asked,
     certified,
     chosen,
     every_set,
+    request_body,
     twin,
     two_webs,
 )
@@ -37,8 +37,8 @@ WEIGHTS = {"bearing_weight": 1, "force_weight": 0.5, "moment_weight": 2.0}
 
 
 def in_order(*goals: str, allowance: float = 0.0, **more: Any) -> dict[str, Any]:
-    first, *others = goals
-    order = [{"goal": first, "allowance": allowance}, *({"goal": goal} for goal in others)]
+    first, *actual_goals = goals
+    order = [{"goal": first, "allowance": allowance}, *({"goal": goal} for goal in actual_goals)]
     return {**WEIGHTS, "priorities": order, **more}
 
 
@@ -52,7 +52,7 @@ def by_hand(loads: Loads, u: np.ndarray, plane: float, goal: dict[str, Any]) -> 
     }
 
 
-def assert_best(found: OptimizeAnswer, first: np.ndarray, last: np.ndarray, allowed: float) -> None:
+def assert_best(answer: OptimizeAnswer, first: np.ndarray, last: np.ndarray, allowed: float) -> None:
     """Independent: no set that keeps what the first goal leaves comes to less of the last one.
 
     Parameters
@@ -60,14 +60,14 @@ def assert_best(found: OptimizeAnswer, first: np.ndarray, last: np.ndarray, allo
     first, last : (sets,) what sets come to, angles between those that were looked at apart.
     allowed : what the first goal may come to.
     """
-    proof = found.certificate
+    proof = answer.certificate
     assert proof is not None
-    (kept,) = proof.goals
-    assert kept.value == pytest.approx(float(np.min(first)), rel=DEGREE)
-    assert kept.lower_bound == pytest.approx(float(np.min(first)), rel=DEGREE)
-    assert kept.limit == pytest.approx(allowed, rel=DEGREE)
+    (goal,) = proof.goals
+    assert goal.value == pytest.approx(float(np.min(first)), rel=DEGREE)
+    assert goal.lower_bound == pytest.approx(float(np.min(first)), rel=DEGREE)
+    assert goal.limit == pytest.approx(allowed, rel=DEGREE)
     # those at the very limit may be on either side of it
-    surely, perhaps = first <= kept.limit * (1 - DEGREE), first <= kept.limit * (1 + DEGREE)
+    surely, perhaps = first <= goal.limit * (1 - DEGREE), first <= goal.limit * (1 + DEGREE)
     assert proof.objective <= float(np.min(last, where=surely, initial=np.inf)) * (1 + DEGREE)
     assert proof.objective >= float(np.min(last[perhaps])) * (1 - 1e-9)
     assert proof.lower_bound is not None
@@ -95,31 +95,31 @@ def test_no_set_by_hand_is_better(monkeypatch: pytest.MonkeyPatch, by_tree: bool
         monkeypatch.setattr(search, "_SUMS", 0)
         monkeypatch.setattr(branch, "_SETS", 1)
     machine = twin()
-    found, _ = certified(asked(machine, **goal))
+    optimum, _ = certified(request_body(machine, **goal))
     loads, (_, u) = Loads(machine), every_set(machine)
-    values, here = (by_hand(loads, each, found.reference_plane_m, goal) for each in (u, chosen(found)))
-    names = [each["goal"] for each in goal["priorities"]]
+    values, here = (by_hand(loads, choice, optimum.reference_plane_m, goal) for choice in (u, chosen(optimum)))
+    names = [priority["goal"] for priority in goal["priorities"]]
     first, last = values[names[0]], values[names[1]]
     still = float(first[0])
-    assert_best(found, first, last, float(np.min(first)) + goal["priorities"][0]["allowance"] * still)
-    assert found.certificate is not None
-    assert float(here[names[1]][0]) == pytest.approx(found.certificate.objective, rel=DEGREE)
-    assert float(here[names[0]][0]) <= found.certificate.goals[0].limit * (1 + 1e-9)
+    assert_best(optimum, first, last, float(np.min(first)) + goal["priorities"][0]["allowance"] * still)
+    assert optimum.certificate is not None
+    assert float(here[names[1]][0]) == pytest.approx(optimum.certificate.objective, rel=DEGREE)
+    assert float(here[names[0]][0]) <= optimum.certificate.goals[0].limit * (1 + 1e-9)
 
 
 def test_in_scenarios() -> None:
     """Independent: the worst of two speeds of either goal, by statics."""
     machine, goal = twin(), in_order("external", "bearings", allowance=0.05)
-    found, _ = certified(asked(machine, **goal) | {"scenarios": [FAST, SLOW]})
+    optimum, _ = certified(request_body(machine, **goal) | {"scenarios": [FAST, SLOW]})
     _, u = every_set(machine)
     cases = ((1.0, Loads(machine)), (0.5, Loads(machine | {"speed_rpm": 1300})))
-    each = [by_hand(loads, u, found.reference_plane_m, goal) for _, loads in cases]
+    by_hands = [by_hand(loads, u, optimum.reference_plane_m, goal) for _, loads in cases]
     first, last = (
-        np.maximum(*(weight * of[name] for (weight, _), of in zip(cases, each, strict=True)))
+        np.maximum(*(weight * of[name] for (weight, _), of in zip(cases, by_hands, strict=True)))
         for name in ("external", "bearings")
     )
-    assert_best(found, first, last, float(np.min(first) + 0.05 * first[0]))
-    assert found.price_of_robustness is not None
+    assert_best(optimum, first, last, float(np.min(first) + 0.05 * first[0]))
+    assert optimum.price_of_robustness is not None
 
 
 def test_under_a_ceiling() -> None:
@@ -129,28 +129,30 @@ def test_under_a_ceiling() -> None:
     _, moment = loads.frame(u, 0.0)
     ceiling = float(np.sort(moment)[300]) * (1 + 1e-6)
     machine["reference_plane_m"] = 0.0
-    found, _ = certified(asked(machine, **goal, moment_ceiling_Nm=ceiling))
-    kept = moment <= ceiling
+    optimum, _ = certified(request_body(machine, **goal, moment_ceiling_Nm=ceiling))
+    mask = moment <= ceiling
     values = by_hand(loads, u, 0.0, goal)
-    allowed = float(np.min(values["bearings"][kept]) + 0.02 * values["bearings"][0])
-    assert_best(found, values["bearings"][kept], values["external"][kept], allowed)
+    allowed = float(np.min(values["bearings"][mask]) + 0.02 * values["bearings"][0])
+    assert_best(optimum, values["bearings"][mask], values["external"][mask], allowed)
 
 
 def test_least_masses() -> None:
     """Independent: both of two webs fitted, one or none, by a grid of masses and angles."""
     machine, goal = two_webs(), in_order("external", "bearings", allowance=0.02)
-    found, proof = certified(asked(machine, 1e-4, **goal))
-    assert all(one.mass_kg == 0.0 or one.mass_kg >= 14.0 for one in found.counterweights)
-    loads, (kept,) = Loads(machine), proof.goals
-    plane = found.reference_plane_m
+    optimum, proof = certified(request_body(machine, 1e-4, **goal))
+    assert all(
+        counterweight.mass_kg == 0.0 or counterweight.mass_kg >= 14.0 for counterweight in optimum.counterweights
+    )
+    loads, (level,) = Loads(machine), proof.goals
+    plane = optimum.reference_plane_m
     still = float(by_hand(loads, np.zeros((1, 2)), plane, goal)["external"][0])
 
-    def best(each: list[np.ndarray]) -> tuple[float, float, np.ndarray]:
+    def best(values: list[np.ndarray]) -> tuple[float, float, np.ndarray]:
         """The least of both goals, of the last under the limit, and where; sets are of all options of both webs."""
-        sets = np.stack([one.ravel() for one in np.meshgrid(*each, indexing="ij")], axis=-1)
+        sets = np.stack([entry.ravel() for entry in np.meshgrid(*values, indexing="ij")], axis=-1)
         force, moment = loads.frame(sets, plane)
         first = 0.5 * force + 2.0 * moment
-        within = sets[first <= kept.limit]
+        within = sets[first <= level.limit]
         last = by_hand(loads, within, plane, goal)["bearings"]
         place = np.argmin(last) if last.size else 0
         return float(np.min(first)), float(np.min(last, initial=np.inf)), within[place : place + 1].ravel()
@@ -162,22 +164,22 @@ def test_least_masses() -> None:
 
     first, last, at = best([about(1.8, 1.0, 91)] * 2)
     for share in 0.1 * 0.7 ** np.arange(16):
-        lower, closer, there = best([about(each, share, 5) for each in at])
+        lower, closer, there = best([about(value, share, 5) for value in at])
         first = min(first, lower)
         if closer < last:
             last, at = closer, there
     # a grid is above what it is a grid of
-    assert kept.lower_bound is not None
-    assert kept.lower_bound <= first
-    assert kept.value <= first * (1 + 1e-4)
-    assert kept.limit == pytest.approx(kept.lower_bound + 0.02 * still, rel=1e-6)
+    assert level.lower_bound is not None
+    assert level.lower_bound <= first
+    assert level.value <= first * (1 + 1e-4)
+    assert level.limit == pytest.approx(level.lower_bound + 0.02 * still, rel=1e-6)
     assert 0.99 * last <= proof.objective <= last * (1 + 1e-4)
 
 
 def test_rows_of_a_sweep() -> None:
     """Rows are the single answers (property)."""
     request = sweep(
-        asked(twin(), **in_order("external", "bearings")), {"path": "/machine/speed_rpm", "values": [900, 1100]}
+        request_body(twin(), **in_order("external", "bearings")), {"path": "/machine/speed_rpm", "values": [900, 1100]}
     )
     rows = table(request).to_pylist()
     assert [assert_row_is_the_single_answer(request, row) for row in rows] == ["optimal"] * 2
@@ -190,34 +192,36 @@ def test_a_ceiling_that_no_set_keeps() -> None:
     machine["reference_plane_m"] = 0.0
     _, moment = Loads(machine).frame(every_set(machine)[1], 0.0)
     goal = in_order("external", "bearings", moment_ceiling_Nm=float(np.min(moment)) * 0.999)
-    found = optimized(asked(machine, **goal))
-    assert found.status == "infeasible"
-    assert found.status_reason.startswith("Proven infeasible: no set")
-    assert found.certificate is None
+    answer = optimized(request_body(machine, **goal))
+    assert answer.status == "infeasible"
+    assert answer.status_reason.startswith("Proven infeasible: no set")
+    assert answer.certificate is None
 
 
 def test_the_time_ends_it_before_the_last_goal() -> None:
     machine = twin(catalogue={"mass_step_kg": 0.37, "angle_step_deg": 7.5})
     machine["webs"] = [{k: v for k, v in web.items() if k != "hole_angles_deg"} for web in machine["webs"]]
-    body = asked(machine, **in_order("bearings", "external", allowance=0.01))
-    found = optimized(body | {"accuracy": {"relative_gap": 1e-9, "time_limit_s": 0.2}})
-    assert found.status == "inaccurate"
-    assert found.certificate is not None
-    (kept,) = found.certificate.goals
-    assert kept.lower_bound is not None
-    assert kept.lower_bound <= kept.value <= kept.limit
+    body = request_body(machine, **in_order("bearings", "external", allowance=0.01))
+    answer = optimized(body | {"accuracy": {"relative_gap": 1e-9, "time_limit_s": 0.2}})
+    assert answer.status == "inaccurate"
+    assert answer.certificate is not None
+    (goal,) = answer.certificate.goals
+    assert goal.lower_bound is not None
+    assert goal.lower_bound <= goal.value <= goal.limit
 
 
 def test_a_goal_below_its_bound_contradicts(monkeypatch: pytest.MonkeyPatch) -> None:
-    def above(*given: Any) -> tuple[Choice, SearchResult]:
-        picked, found = in_rounds(*given)
+    def above(*arguments: Any) -> tuple[Choice, SearchResult]:
+        picked, optimum = in_rounds(*arguments)
         # of the first goal only: that of the last is judged with the answer
-        first = len(given[0].goals) == 1
-        return picked, replace(found, lower_bound=2.0 * found.lower_bound) if first else found
+        first = len(arguments[0].goals) == 1
+        return picked, replace(optimum, lower_bound=2.0 * optimum.lower_bound) if first else optimum
 
     monkeypatch.setattr(certified_choice, "in_rounds", above)
     # the limit of the first goal is counted from the wrong bound
-    answer = unchecked(optimize)(OptimizeRequest.model_validate(asked(twin(), **in_order("bearings", "external"))))
+    answer = unchecked(optimize)(
+        OptimizeRequest.model_validate(request_body(twin(), **in_order("bearings", "external")))
+    )
     assert (answer.status, answer.status_reason) == ("inaccurate", CONTRADICTED)
     assert answer.certificate is not None
     assert [goal.lower_bound for goal in answer.certificate.goals] == [None]
@@ -226,11 +230,11 @@ def test_a_goal_below_its_bound_contradicts(monkeypatch: pytest.MonkeyPatch) -> 
 def test_what_exceeds_the_ceilings_contradicts_no_bound_of_what_keeps_them(monkeypatch: pytest.MonkeyPatch) -> None:
     """Regression: a search that the time ended before any choice kept the ceilings was called a fault."""
 
-    def late(*given: Any) -> tuple[Choice, SearchResult]:
-        picked, found = in_rounds(*given)
+    def late(*arguments: Any) -> tuple[Choice, SearchResult]:
+        picked, optimum = in_rounds(*arguments)
         nothing = picked._replace(mass=0 * picked.mass, angle=0 * picked.angle, unbalance=0 * picked.unbalance)
         # more than there is without counterweights
-        return nothing, replace(found, feasible=False, lower_bound=2.0 * given[4], ended="time")
+        return nothing, replace(optimum, feasible=False, lower_bound=2.0 * arguments[4], ended="time")
 
     monkeypatch.setattr(certified_choice, "in_rounds", late)
     body = {"machine": catalogue_twin(), "objective": {"force_ceiling_N": 20_000.0}}

@@ -17,7 +17,7 @@ LADEN = {"name": "laden", "changes": [{"path": "/machine/throws/2/rotating_mass_
 AS_IT_IS = {"name": "as it is"}
 
 
-def asked(groups: list[list[str]], scenarios: list[dict[str, Any]], **goal: Any) -> dict[str, Any]:
+def request_body(groups: list[list[str]], scenarios: list[dict[str, Any]], **goal: Any) -> dict[str, Any]:
     body = grouped(groups, False, objective=goal, scenarios=scenarios)
     body["machine"]["catalogue"] = {"masses_kg": [3.0, 6.0, 9.0], "angle_step_deg": 45.0}
     body["accuracy"] = {"relative_gap": 1e-9, "time_limit_s": 30}
@@ -26,7 +26,7 @@ def asked(groups: list[list[str]], scenarios: list[dict[str, Any]], **goal: Any)
 
 def cases(body: dict[str, Any]) -> list[tuple[float, dict[str, Any]]]:
     """Weights and machines of all scenarios, by hand."""
-    found = []
+    values = []
     for scenario in body["scenarios"]:
         case = {"machine": copy.deepcopy(body["machine"])}
         for change in scenario.get("changes", ()):
@@ -35,8 +35,8 @@ def cases(body: dict[str, Any]) -> list[tuple[float, dict[str, Any]]]:
             for step in path:
                 place = place[int(step)] if isinstance(place, list) else place[step]
             place[last] = change["value"]
-        found.append((scenario.get("weight", 1.0), case))
-    return found
+        values.append((scenario.get("weight", 1.0), case))
+    return values
 
 
 def worst(body: dict[str, Any], u: np.ndarray) -> Any:
@@ -47,57 +47,57 @@ def worst(body: dict[str, Any], u: np.ndarray) -> Any:
 @pytest.mark.parametrize("scenarios", [[AS_IT_IS, LADEN], [FAST, LADEN], [FAST, LADEN, AS_IT_IS]])
 def test_no_set_by_hand_is_better(scenarios: list[dict[str, Any]]) -> None:
     """Independent: all 15,625 sets, by sums over throws and webs."""
-    body = asked(PAIRS, scenarios)
-    found = sound_answer(body)
-    alike(found, PAIRS, False)
+    body = request_body(PAIRS, scenarios)
+    answer = sound_answer(body)
+    alike(answer, PAIRS, False)
     _, u = every_set(body)
     best = float(np.min(worst(body, u)))
-    assert found.status == "optimal", found.status_reason
-    assert found.status_reason.startswith("Proven optimal: of all sets")
-    assert found.certificate is not None
-    assert found.worst_case is not None
-    assert found.price_of_robustness is not None
-    assert found.certificate.objective == pytest.approx(best, rel=1e-9)
-    assert found.certificate.lower_bound == pytest.approx(best, rel=1e-9)
-    assert found.certificate.continuous_lower_bound is not None
-    assert found.certificate.continuous_lower_bound <= best
-    assert found.worst_case.objective == found.certificate.objective
+    assert answer.status == "optimal", answer.status_reason
+    assert answer.status_reason.startswith("Proven optimal: of all sets")
+    assert answer.certificate is not None
+    assert answer.worst_case is not None
+    assert answer.price_of_robustness is not None
+    assert answer.certificate.objective == pytest.approx(best, rel=1e-9)
+    assert answer.certificate.lower_bound == pytest.approx(best, rel=1e-9)
+    assert answer.certificate.continuous_lower_bound is not None
+    assert answer.certificate.continuous_lower_bound <= best
+    assert answer.worst_case.objective == answer.certificate.objective
     # what the best set of the machine as it is comes to in the worst case
     nominal = objective(body, u)
-    assert found.price_of_robustness.nominal_optimum == pytest.approx(float(np.min(nominal)), rel=1e-9)
-    assert found.price_of_robustness.nominal_optimum_worst_case is not None
-    assert found.price_of_robustness.nominal_optimum_worst_case >= best * (1 - 1e-9)
+    assert answer.price_of_robustness.nominal_optimum == pytest.approx(float(np.min(nominal)), rel=1e-9)
+    assert answer.price_of_robustness.nominal_optimum_worst_case is not None
+    assert answer.price_of_robustness.nominal_optimum_worst_case >= best * (1 - 1e-9)
 
 
 def test_by_a_tree(monkeypatch: pytest.MonkeyPatch) -> None:
     """Independent: the same where halves are given no room."""
     monkeypatch.setattr("optimizer.choices.discrete.search._SUMS", 1)
     monkeypatch.setattr("optimizer.choices.discrete.branch._SETS", 20)
-    body = asked(PAIRS, [FAST, LADEN])
-    found = optimized(body)
+    body = request_body(PAIRS, [FAST, LADEN])
+    answer = optimized(body)
     _, u = every_set(body)
-    assert found.certificate is not None
-    assert found.certificate.method == "branch and bound"
-    assert found.certificate.objective == pytest.approx(float(np.min(worst(body, u))), rel=1e-9)
-    assert found.certificate.lower_bound == pytest.approx(found.certificate.objective, rel=1e-9)
+    assert answer.certificate is not None
+    assert answer.certificate.method == "branch and bound"
+    assert answer.certificate.objective == pytest.approx(float(np.min(worst(body, u))), rel=1e-9)
+    assert answer.certificate.lower_bound == pytest.approx(answer.certificate.objective, rel=1e-9)
 
 
 def test_ceilings_hold_in_each() -> None:
     """Independent: of the sets that keep the ceiling in every scenario the best; then ceilings that no set keeps."""
     two = [AS_IT_IS, LADEN]
-    body = asked(PAIRS, two)
+    body = request_body(PAIRS, two)
     _, u = every_set(body)
     force = np.max([objective(case, u, moment_share=0.0) for _, case in cases(body)], axis=0)
     least = float(np.min(force))
-    body = asked(PAIRS, two, force_ceiling_N=1.1 * least, force_weight=0)
-    kept = force <= 1.1 * least
-    found = optimized(body)
-    assert found.status == "optimal"
-    assert found.certificate is not None
+    body = request_body(PAIRS, two, force_ceiling_N=1.1 * least, force_weight=0)
+    mask = force <= 1.1 * least
+    answer = optimized(body)
+    assert answer.status == "optimal"
+    assert answer.certificate is not None
     moment = np.max([objective(case, u) - objective(case, u, moment_share=0.0) for _, case in cases(body)], axis=0)
-    assert found.certificate.objective == pytest.approx(float(np.min(moment[kept])), rel=1e-9)
+    assert answer.certificate.objective == pytest.approx(float(np.min(moment[mask])), rel=1e-9)
     for ceiling in (0.999 * least, 0.1 * least):
-        none = optimized(asked(PAIRS, two, force_ceiling_N=ceiling))
+        none = optimized(request_body(PAIRS, two, force_ceiling_N=ceiling))
         assert none.status == "infeasible", ceiling
         assert none.infeasibility is not None
         assert none.infeasibility.conflict == ("force_ceiling_N",)
@@ -113,13 +113,13 @@ def test_at_least_so_heavy() -> None:
     for web in body["machine"]["webs"]:
         web |= {"min_fitted_mass_kg": 24.0, "max_mass_kg": 30.0}
     body["accuracy"] = {"relative_gap": 1e-4, "time_limit_s": 30}
-    found = optimized(body)
-    assert found.status == "optimal"
-    assert found.certificate is not None
-    assert all(one.mass_kg == 0 or one.mass_kg >= 24.0 for one in found.counterweights)
+    answer = optimized(body)
+    assert answer.status == "optimal"
+    assert answer.certificate is not None
+    assert all(counterweight.mass_kg == 0 or counterweight.mass_kg >= 24.0 for counterweight in answer.counterweights)
     sizes, angles = np.linspace(24.0, 30.0, 13), np.radians(np.arange(0.0, 360.0, 4.0))
-    each = np.concatenate([[0j], (sizes[:, None] * np.exp(1j * angles)).ravel()]) * RADIUS
-    values = worst(body, np.stack(np.meshgrid(each, each), axis=-1))
-    assert found.certificate.lower_bound is not None
-    assert found.certificate.lower_bound <= float(np.min(values))
-    assert found.certificate.objective <= float(np.min(values)) + 1e-4 * found.certificate.yardstick
+    array = np.concatenate([[0j], (sizes[:, None] * np.exp(1j * angles)).ravel()]) * RADIUS
+    values = worst(body, np.stack(np.meshgrid(array, array), axis=-1))
+    assert answer.certificate.lower_bound is not None
+    assert answer.certificate.lower_bound <= float(np.min(values))
+    assert answer.certificate.objective <= float(np.min(values)) + 1e-4 * answer.certificate.yardstick

@@ -28,11 +28,11 @@ def every_set() -> np.ndarray:
     """(4, 83521) kg m, as drawn."""
     angles = np.radians(np.arange(0, 360, STEP_DEG))
     mass = np.array([0.0, *np.repeat(MASSES, angles.size)])
-    one = mass * np.exp(1j * np.array([0.0, *np.tile(angles, len(MASSES))])) * RADIUS
+    weight = mass * np.exp(1j * np.array([0.0, *np.tile(angles, len(MASSES))])) * RADIUS
     grid = np.array(np.meshgrid(*[np.arange(mass.size)] * 4, indexing="ij")).reshape(4, -1)
     # steps count from the own crank
-    found: np.ndarray = one[grid] * np.array([[1], [1], [1j], [1j]])
-    return found
+    values: np.ndarray = weight[grid] * np.array([[1], [1], [1j], [1j]])
+    return values
 
 
 def worst(u: np.ndarray, tolerances: dict[str, float]) -> np.ndarray:
@@ -57,7 +57,7 @@ def worst(u: np.ndarray, tolerances: dict[str, float]) -> np.ndarray:
     return peaks[0] + peaks[1] / (PLANES[-1] - PLANES[0])
 
 
-def asked(tolerances: dict[str, float], **more: Any) -> OptimizeAnswer:
+def tolerant_optimum(tolerances: dict[str, float], **more: Any) -> OptimizeAnswer:
     return optimize(OptimizeRequest.model_validate(body(STEP_DEG, MASSES, tolerances=tolerances, **more)))
 
 
@@ -76,19 +76,21 @@ EVERY = {"mass_relative": 0.05, "angle_deg": 3.0, "reciprocating_mass_relative":
 )
 def test_no_set_has_a_better_worst_case(tolerances: dict[str, float]) -> None:
     """Independent: all 83,521 sets."""
-    found = asked(tolerances)
+    answer = tolerant_optimum(tolerances)
     every = every_set()
     best = float(np.min(worst(every, tolerances)))
-    assert found.status == "optimal", found.status_reason
-    assert found.certificate is not None
-    assert found.certificate.objective == pytest.approx(best, rel=1e-9)
-    assert found.certificate.lower_bound == pytest.approx(best, rel=1e-9)
-    assert found.certificate.lower_bound <= found.certificate.objective
-    chosen = np.array([[complex(one.x_kg_m, one.y_kg_m)] for one in found.counterweights])
+    assert answer.status == "optimal", answer.status_reason
+    assert answer.certificate is not None
+    assert answer.certificate.objective == pytest.approx(best, rel=1e-9)
+    assert answer.certificate.lower_bound == pytest.approx(best, rel=1e-9)
+    assert answer.certificate.lower_bound <= answer.certificate.objective
+    chosen = np.array(
+        [[complex(counterweight.x_kg_m, counterweight.y_kg_m)] for counterweight in answer.counterweights]
+    )
     assert float(worst(chosen, tolerances)[0]) == pytest.approx(best, rel=1e-9)
-    assert found.worst_case is not None
-    assert found.worst_case.objective == found.certificate.objective
-    price = found.price_of_robustness
+    assert answer.worst_case is not None
+    assert answer.worst_case.objective == answer.certificate.objective
+    price = answer.price_of_robustness
     assert price is not None
     # what the best set of the machine as it is comes to, and is worth in the worst case
     assert price.nominal_optimum == pytest.approx(float(np.min(worst(every, {}))), rel=1e-9)
@@ -99,7 +101,7 @@ def test_no_set_has_a_better_worst_case(tolerances: dict[str, float]) -> None:
 @pytest.mark.parametrize("tolerances", [{"unbalance_kg_m": 0.05}, EVERY])
 def test_cheaper_choices_by_their_worst_case(tolerances: dict[str, float]) -> None:
     """Independent: all 83,521 sets, each by its worst case."""
-    found, every = asked(tolerances, alternatives=[0.02, 0.2]), every_set()
+    answer, every = tolerant_optimum(tolerances, alternatives=[0.02, 0.2]), every_set()
     values, size = worst(every, tolerances), np.abs(every) / RADIUS
     costs = {
         "mass": np.sum(size, axis=0),
@@ -114,17 +116,19 @@ def test_cheaper_choices_by_their_worst_case(tolerances: dict[str, float]) -> No
             if least < own - 1e-9:
                 own = least
                 expected.append((allowance, least))
-        listed = [one for one in found.alternatives if one.minimised == minimised]
+        listed = [alternative for alternative in answer.alternatives if alternative.minimised == minimised]
         names = {"mass": "total_mass_kg", "pieces": "pieces", "sizes": "sizes"}
-        assert [one.allowance for one in listed] == [allowance for allowance, _ in expected]
-        for one, (allowance, least) in zip(listed, expected, strict=True):
-            assert getattr(one, names[minimised]) == pytest.approx(least, rel=1e-9)
-            assert one.lower_bound is not None
-            assert one.lower_bound <= least * (1.0 + 1e-9)
-            u = np.array([[complex(each.x_kg_m, each.y_kg_m)] for each in one.counterweights])
-            assert one.objective == pytest.approx(float(worst(u, tolerances)[0]), rel=1e-9)
-            assert one.objective <= best * (1.0 + allowance) * (1.0 + 1e-8)
-    assert found.alternatives
+        assert [alternative.allowance for alternative in listed] == [allowance for allowance, _ in expected]
+        for optimum, (allowance, least) in zip(listed, expected, strict=True):
+            assert getattr(optimum, names[minimised]) == pytest.approx(least, rel=1e-9)
+            assert optimum.lower_bound is not None
+            assert optimum.lower_bound <= least * (1.0 + 1e-9)
+            u = np.array(
+                [[complex(counterweight.x_kg_m, counterweight.y_kg_m)] for counterweight in optimum.counterweights]
+            )
+            assert optimum.objective == pytest.approx(float(worst(u, tolerances)[0]), rel=1e-9)
+            assert optimum.objective <= best * (1.0 + allowance) * (1.0 + 1e-8)
+    assert answer.alternatives
 
 
 @at_night
@@ -132,14 +136,14 @@ def test_by_a_tree(monkeypatch: pytest.MonkeyPatch) -> None:
     """Independent: the same where halves are given no room."""
     monkeypatch.setattr("optimizer.choices.discrete.search._SUMS", 1)
     monkeypatch.setattr("optimizer.choices.discrete.branch._SETS", 20)
-    found = asked(EVERY, accuracy={"relative_gap": 1e-5, "time_limit_s": 30})
+    answer = tolerant_optimum(EVERY, accuracy={"relative_gap": 1e-5, "time_limit_s": 30})
     best = float(np.min(worst(every_set(), EVERY)))
-    assert found.certificate is not None
-    assert found.certificate.method == "branch and bound"
-    assert found.certificate.lower_bound is not None
-    assert found.certificate.lower_bound <= best * (1.0 + 1e-12)
-    assert found.certificate.objective <= best + 1e-5 * found.certificate.yardstick
-    assert found.certificate.objective >= best * (1.0 - 1e-12)
+    assert answer.certificate is not None
+    assert answer.certificate.method == "branch and bound"
+    assert answer.certificate.lower_bound is not None
+    assert answer.certificate.lower_bound <= best * (1.0 + 1e-12)
+    assert answer.certificate.objective <= best + 1e-5 * answer.certificate.yardstick
+    assert answer.certificate.objective >= best * (1.0 - 1e-12)
 
 
 def worst_force(u: np.ndarray, tolerances: dict[str, float]) -> np.ndarray:
@@ -163,11 +167,13 @@ def test_a_ceiling_holds_with_what_is_there_besides() -> None:
     force = worst_force(every, tolerances)
     moment = (worst(every, tolerances) - force) * (PLANES[-1] - PLANES[0])
     most = float(np.quantile(force, 0.02))
-    found = asked(tolerances, objective={"force_ceiling_N": most, "force_weight": 0.0, "moment_weight": 1.0})
-    kept = force <= most * (1 + 1e-12)
-    assert found.status == "optimal"
-    assert found.certificate is not None
-    assert found.certificate.objective == pytest.approx(float(np.min(moment[kept])), rel=1e-9)
+    answer = tolerant_optimum(
+        tolerances, objective={"force_ceiling_N": most, "force_weight": 0.0, "moment_weight": 1.0}
+    )
+    mask = force <= most * (1 + 1e-12)
+    assert answer.status == "optimal"
+    assert answer.certificate is not None
+    assert answer.certificate.objective == pytest.approx(float(np.min(moment[mask])), rel=1e-9)
 
 
 def test_at_least_so_heavy() -> None:
@@ -178,27 +184,27 @@ def test_at_least_so_heavy() -> None:
     del machine["catalogue"]
     for web, most in zip(machine["webs"], (20.0, 0.0, 0.0, 20.0), strict=True):
         web |= {"max_mass_kg": most} | ({"min_fitted_mass_kg": 15.0} if most else {})
-    found = optimize(OptimizeRequest.model_validate(request))
-    assert found.status == "optimal", found.status_reason
-    assert found.certificate is not None
-    assert found.certificate.lower_bound is not None
+    answer = optimize(OptimizeRequest.model_validate(request))
+    assert answer.status == "optimal", answer.status_reason
+    assert answer.certificate is not None
+    assert answer.certificate.lower_bound is not None
     sizes, angles = np.linspace(15.0, 20.0, 11), np.radians(np.arange(0.0, 360.0, 4.0))
-    each = np.concatenate([[0j], (sizes[:, None] * np.exp(1j * angles)).ravel()]) * RADIUS
-    first, last = (part.ravel() for part in np.meshgrid(each, each, indexing="ij"))
+    values = np.concatenate([[0j], (sizes[:, None] * np.exp(1j * angles)).ravel()]) * RADIUS
+    first, last = (part.ravel() for part in np.meshgrid(values, values, indexing="ij"))
     none = np.zeros(first.size)
     by_hand = float(np.min(worst(np.array([first, none, none, last]), tolerances)))
-    assert found.certificate.lower_bound <= by_hand
-    assert found.certificate.objective <= by_hand + 1e-4 * found.certificate.yardstick
-    assert all(one.mass_kg == 0 or one.mass_kg >= 15.0 for one in found.counterweights)
+    assert answer.certificate.lower_bound <= by_hand
+    assert answer.certificate.objective <= by_hand + 1e-4 * answer.certificate.yardstick
+    assert all(counterweight.mass_kg == 0 or counterweight.mass_kg >= 15.0 for counterweight in answer.counterweights)
 
 
 def bearing_load(machine: dict[str, Any], chosen: list[tuple[str, float, float]], share: float) -> float:
     """Independent: the largest load of three bearings on two spans, every weight off towards where the load grows."""
     weights = [{"web": web, "mass_kg": mass, "angle_deg": angle} for web, mass, angle in chosen if mass]
-    found = analyze(
+    answer = analyze(
         AnalyzeRequest.model_validate({"machine": machine, "counterweights": weights, "outputs": ["main_bearings"]})
     )
-    assert found.main_bearings is not None
+    assert answer.main_bearings is not None
     place = [bearing["position_m"] for bearing in machine["bearings"]]
     square, grown = (machine["speed_rpm"] * np.pi / 30) ** 2, np.zeros(len(place))
     webs = {web["name"]: web for web in machine["webs"]}
@@ -206,7 +212,7 @@ def bearing_load(machine: dict[str, Any], chosen: list[tuple[str, float, float]]
         at, radius = webs[name]["position_m"], webs[name]["counterweight_radius_m"]
         # a load within a span is carried by its ends, as by a simple beam
         grown += [np.interp(at, place, row) * mass * radius * square * share for row in np.eye(len(place))]
-    peaks = [bearing.after.peak_N for bearing in found.main_bearings.bearings if bearing.after is not None]
+    peaks = [bearing.after.peak_N for bearing in answer.main_bearings.bearings if bearing.after is not None]
     return float(np.max(np.array(peaks) + grown))
 
 
@@ -218,41 +224,41 @@ def test_a_choice_for_bearings_that_scatters_with_its_mass() -> None:
     alone = {"force_weight": 0.0, "moment_weight": 0.0, "bearing_weight": 1.0}
     stock = {"masses_kg": [0.4, 0.9], "angle_step_deg": 90.0}
     request = {"machine": {**machine, "catalogue": stock}, "objective": alone, "tolerances": {"mass_relative": share}}
-    found = optimize(OptimizeRequest.model_validate(request))
-    assert found.status == "optimal", found.status_reason
-    assert found.certificate is not None
+    answer = optimize(OptimizeRequest.model_validate(request))
+    assert answer.status == "optimal", answer.status_reason
+    assert answer.certificate is not None
     options = [(0.0, 0.0), *itertools.product(stock["masses_kg"], (0.0, 90.0, 180.0, 270.0))]
     ends = [machine["webs"][0]["name"], machine["webs"][3]["name"]]
     loads = [
         bearing_load(machine, [(name, *option) for name, option in zip(ends, pair, strict=True)], share)
         for pair in itertools.product(options, options)
     ]
-    assert found.certificate.objective == pytest.approx(min(loads), rel=1e-6)
-    assert found.certificate.lower_bound is not None
-    assert found.certificate.lower_bound <= min(loads) * (1 + 1e-9)
+    assert answer.certificate.objective == pytest.approx(min(loads), rel=1e-6)
+    assert answer.certificate.lower_bound is not None
+    assert answer.certificate.lower_bound <= min(loads) * (1 + 1e-9)
 
 
 def test_goals_in_their_order_of_choices_that_scatter() -> None:
     """Independent: the least mass of all sets within a twentieth of the smallest worst case."""
     order = [{"goal": "external", "allowance": 0.05}, {"goal": "mass"}]
     tolerances = {"mass_relative": 0.05, "angle_deg": 3.0}
-    found = asked(tolerances, objective={"priorities": order})
-    assert found.status == "optimal", found.status_reason
-    assert found.certificate is not None
-    sets, unit = every_set(), found.certificate.objective_without_counterweights
+    answer = tolerant_optimum(tolerances, objective={"priorities": order})
+    assert answer.status == "optimal", answer.status_reason
+    assert answer.certificate is not None
+    sets, unit = every_set(), answer.certificate.objective_without_counterweights
     values, masses = worst(sets, tolerances), np.sum(np.abs(sets), axis=0) / RADIUS
     allowed = values <= np.min(values) + 0.05 * unit
-    assert found.total_mass_kg == pytest.approx(float(np.min(masses[allowed])))
-    assert found.certificate.objective <= (np.min(values) + 0.05 * unit) * (1 + 1e-9)
+    assert answer.total_mass_kg == pytest.approx(float(np.min(masses[allowed])))
+    assert answer.certificate.objective <= (np.min(values) + 0.05 * unit) * (1 + 1e-9)
 
 
-@pytest.mark.parametrize("made", ["catalogue", "min_fitted_mass_kg"])
-def test_what_scatters_with_a_choice_is_under_no_ceiling(made: str) -> None:
+@pytest.mark.parametrize("text", ["catalogue", "min_fitted_mass_kg"])
+def test_what_scatters_with_a_choice_is_under_no_ceiling(text: str) -> None:
     """A ceiling is on one term, and what scatters is a sum of them."""
     request = body(STEP_DEG, MASSES, tolerances={"mass_relative": 0.02}, objective={"force_ceiling_N": 1e4})
-    if made != "catalogue":
+    if text != "catalogue":
         del request["machine"]["catalogue"]
-        request["machine"]["webs"][0][made] = 3.0
+        request["machine"]["webs"][0][text] = 3.0
     with pytest.raises(InvalidRequest) as refused:
         check(OptimizeRequest, request)
     assert [problem.path for problem in refused.value.problems] == [("tolerances", "mass_relative")]
@@ -271,13 +277,13 @@ def test_bearings_of_masses_that_are_at_least_so_heavy(share: float) -> None:
         web |= {"max_mass_kg": most} | ({"min_fitted_mass_kg": 8.0} if most else {})
     request["objective"] = {"force_weight": 0.0, "moment_weight": 0.0, "bearing_weight": 1.0}
     request["accuracy"] = {"relative_gap": 1e-4, "time_limit_s": 30}
-    found = optimize(OptimizeRequest.model_validate(request))
-    assert found.status == "optimal", found.status_reason
-    assert found.certificate is not None
-    assert found.certificate.lower_bound is not None
+    answer = optimize(OptimizeRequest.model_validate(request))
+    assert answer.status == "optimal", answer.status_reason
+    assert answer.certificate is not None
+    assert answer.certificate.lower_bound is not None
     sizes, angles = np.linspace(8.0, 20.0, 25), np.radians(np.arange(0.0, 360.0, 4.0))
-    each = np.concatenate([[0j], (sizes[:, None] * np.exp(1j * angles)).ravel()]) * RADIUS
-    first, last = (part.ravel() for part in np.meshgrid(each, each, indexing="ij"))
+    value = np.concatenate([[0j], (sizes[:, None] * np.exp(1j * angles)).ravel()]) * RADIUS
+    first, last = (part.ravel() for part in np.meshgrid(value, value, indexing="ij"))
     loads = []
     for side in (-1.0, 1.0):
 
@@ -291,14 +297,14 @@ def test_bearings_of_masses_that_are_at_least_so_heavy(share: float) -> None:
             * np.exp(1j * np.radians(throw["crank_angle_deg"]))
             for throw in machine["throws"]
         )
-        one, other = (lever(machine["webs"][k]["position_m"]) for k in (0, -1))
-        off = share * (abs(one) * np.abs(first) + abs(other) * np.abs(last))
-        loads.append(np.abs(fixed + one * first + other * last) + off)
+        first_lever, second_lever = (lever(machine["webs"][k]["position_m"]) for k in (0, -1))
+        off = share * (abs(first_lever) * np.abs(first) + abs(second_lever) * np.abs(last))
+        loads.append(np.abs(fixed + first_lever * first + second_lever * last) + off)
     by_hand = SQUARE * float(np.min(np.max(loads, axis=0)))
-    assert found.certificate.lower_bound <= by_hand
-    assert found.certificate.objective <= by_hand + 1e-4 * found.certificate.yardstick
-    assert all(one.mass_kg == 0 or one.mass_kg >= 8.0 for one in found.counterweights)
-    assert any(one.mass_kg > 0.0 for one in found.counterweights)
+    assert answer.certificate.lower_bound <= by_hand
+    assert answer.certificate.objective <= by_hand + 1e-4 * answer.certificate.yardstick
+    assert all(counterweight.mass_kg == 0 or counterweight.mass_kg >= 8.0 for counterweight in answer.counterweights)
+    assert any(counterweight.mass_kg > 0.0 for counterweight in answer.counterweights)
 
 
 def test_time_ends_a_search_of_many_terms() -> None:
@@ -312,20 +318,20 @@ def test_time_ends_a_search_of_many_terms() -> None:
         "tolerances": {"mass_relative": 0.02, "angle_deg": 2.0},
     }
     start = time.thread_time()
-    found = optimize({**request, "accuracy": {"time_limit_s": 0.5}})
+    answer = optimize({**request, "accuracy": {"time_limit_s": 0.5}})
     assert time.thread_time() - start < 5.0
-    assert found.certificate is not None
-    assert found.certificate.lower_bound is not None
-    assert found.certificate.lower_bound <= found.certificate.objective
-    assert found.certificate.relative_gap is not None
-    assert found.certificate.relative_gap < 0.05
+    assert answer.certificate is not None
+    assert answer.certificate.lower_bound is not None
+    assert answer.certificate.lower_bound <= answer.certificate.objective
+    assert answer.certificate.relative_gap is not None
+    assert answer.certificate.relative_gap < 0.05
 
 
 def test_a_bound_that_is_the_value_contradicts_nothing() -> None:
     """Property: where nothing is chosen because of what is there besides, floors are all that both consist of."""
     request = body_of("scroll", ("tolerance of unbalance", "masses of a catalogue", "group"))
     assert request is not None
-    found = optimize(OptimizeRequest.model_validate(request))
-    assert found.status == "optimal", found.status_reason
-    assert found.certificate is not None
-    assert found.certificate.lower_bound == found.certificate.objective
+    answer = optimize(OptimizeRequest.model_validate(request))
+    assert answer.status == "optimal", answer.status_reason
+    assert answer.certificate is not None
+    assert answer.certificate.lower_bound == answer.certificate.objective

@@ -14,7 +14,7 @@ from schemas.base.target import pointer
 from schemas.request.requests import OptimizeRequest
 from service.common.validation import InvalidRequest, check
 from tests.night import part
-from tests.optimize.choices import DEGREE, FAST, SLOW, Loads, asked, certified, every_set, two_webs
+from tests.optimize.choices import DEGREE, FAST, SLOW, Loads, certified, every_set, request_body, two_webs
 from tests.optimize.choices import twin as turning_twin
 from tests.optimize.machines import web
 from tests.optimize.test_catalogue import every_set as every_set_analysed
@@ -38,13 +38,13 @@ def order_of(*goals: tuple[str, float]) -> list[dict[str, Any]]:
 @pytest.fixture(scope="module")
 def sets() -> Sets:
     """Independent: every set with what it comes to and costs, by the analysis of each."""
-    found = []
+    values = []
     for some, after in every_set_analysed(small(), [[0.0, 180.0], [0.0, 180.0], [90.0, 270.0]]):
         masses = [mass for mass, _ in some if mass > 0]
         value = after.force.peak_N + 2.0 * after.moment.peak_Nm
         cost = {"mass": sum(masses), "pieces": len(masses), "sizes": len(set(masses)), "moment": after.moment.peak_Nm}
-        found.append((value, cost))
-    return found
+        values.append((value, cost))
+    return values
 
 
 def by_hand(sets: Sets, order: list[dict[str, Any]]) -> list[float]:
@@ -53,12 +53,12 @@ def by_hand(sets: Sets, order: list[dict[str, Any]]) -> list[float]:
     for priority in order:
         goal, allowance = priority["goal"], priority["allowance"]
         figure: Callable[[tuple[float, dict[str, float]]], float] = (
-            (lambda one: one[0]) if goal == "external" else lambda one, goal=goal: one[1][goal]  # type: ignore[misc]
+            (lambda pair: pair[0]) if goal == "external" else lambda value, goal=goal: value[1][goal]  # type: ignore[misc]
         )
         least = min(map(figure, sets))
         levels.append(least)
         most = least + allowance * (rest if goal == "external" else least)
-        sets = [one for one in sets if figure(one) <= most * (1 + 1e-9) + 1e-9]
+        sets = [pair for pair in sets if figure(pair) <= most * (1 + 1e-9) + 1e-9]
     return levels
 
 
@@ -81,51 +81,53 @@ def test_every_level_is_that_of_all_sets(order: list[tuple[str, float]], ceiling
     if ceiling is not None:
         most = ceiling * max(cost["moment"] for _, cost in sets)
         more["moment_ceiling_Nm"] = most * (1 + 1e-6)
-        sets = [one for one in sets if one[1]["moment"] <= most]
+        sets = [pair for pair in sets if pair[1]["moment"] <= most]
     rest = next((value for value, cost in sets if cost["pieces"] == 0), None)
     body = {
         "machine": small(),
         "objective": {**WEIGHTS, "priorities": goals, **more},
         "accuracy": {"relative_gap": 1e-9, "time_limit_s": 30},
     }
-    found = optimized(body)
-    assert found.status == "optimal", found.status_reason
-    assert found.certificate is not None
+    answer = optimized(body)
+    assert answer.status == "optimal", answer.status_reason
+    assert answer.certificate is not None
     if rest is None:
         # of a ceiling that nothing keeps without weights, the allowance is a share of what is there without
-        sets = [*sets, (found.certificate.objective_without_counterweights, {"pieces": 0, "mass": 0, "sizes": 0})]
+        sets = [*sets, (answer.certificate.objective_without_counterweights, {"pieces": 0, "mass": 0, "sizes": 0})]
         levels = _under(sets, goals)
     else:
         levels = by_hand(sets, goals)
-    told = found.certificate.goals
-    assert [one.goal for one in told] == [goal for goal, _ in order]
-    for one, least in zip(told, levels, strict=True):
-        assert one.value == pytest.approx(least, rel=1e-9)
-        assert one.lower_bound == pytest.approx(least, rel=1e-7)
-        assert one.limit >= one.value * (1 - 1e-12)
-    assert kept_by(found, {one.goal: one.limit for one in told})
-    assert verdict(body, found.model_dump(mode="json")) != "broken"
+    actual_goals = answer.certificate.goals
+    assert [actual_goal.goal for actual_goal in actual_goals] == [goal for goal, _ in order]
+    for level, least in zip(actual_goals, levels, strict=True):
+        assert level.value == pytest.approx(least, rel=1e-9)
+        assert level.lower_bound == pytest.approx(least, rel=1e-7)
+        assert level.limit >= level.value * (1 - 1e-12)
+    assert holds_levels(answer, {actual_goal.goal: actual_goal.limit for actual_goal in actual_goals})
+    assert verdict(body, answer.model_dump(mode="json")) != "broken"
 
 
 def _under(sets: Sets, goals: list[dict[str, Any]]) -> list[float]:
-    *kept, (rest, _) = sets
+    *actual_sets, (rest, _) = sets
     levels = []
     for priority in goals:
         goal, allowance = priority["goal"], priority["allowance"]
-        figures = [value if goal == "external" else cost[goal] for value, cost in kept]
+        figures = [value if goal == "external" else cost[goal] for value, cost in actual_sets]
         least = min(figures)
         levels.append(least)
         most = least + allowance * (rest if goal == "external" else least)
-        kept = [one for one, figure in zip(kept, figures, strict=True) if figure <= most * (1 + 1e-9)]
+        actual_sets = [
+            actual_set for actual_set, figure in zip(actual_sets, figures, strict=True) if figure <= most * (1 + 1e-9)
+        ]
     return levels
 
 
-def kept_by(found: OptimizeAnswer, limits: dict[str, float]) -> bool:
+def holds_levels(answer: OptimizeAnswer, limits: dict[str, float]) -> bool:
     """Whether the answer keeps all levels."""
-    masses = [one.mass_kg for one in found.counterweights if one.mass_kg > 0]
-    assert found.certificate is not None
+    masses = [counterweight.mass_kg for counterweight in answer.counterweights if counterweight.mass_kg > 0]
+    assert answer.certificate is not None
     own = {"mass": sum(masses), "pieces": len(masses), "sizes": len(set(masses))}
-    own["external"] = found.certificate.objective
+    own["external"] = answer.certificate.objective
     return all(own[goal] <= limit * (1 + 1e-9) for goal, limit in limits.items())
 
 
@@ -134,13 +136,13 @@ def test_the_mass_of_any_masses_uses_what_is_allowed() -> None:
     machine = {name: value for name, value in small().items() if name != "catalogue"}
     goals = order_of(("external", 0.1), ("mass", 0.0))
     body = {"machine": machine, "objective": {**WEIGHTS, "priorities": goals}}
-    found = optimized(body)
-    assert found.status == "optimal"
-    assert found.certificate is not None
-    external, mass = found.certificate.goals
-    assert found.certificate.objective == pytest.approx(external.limit, rel=1e-6)
+    answer = optimized(body)
+    assert answer.status == "optimal"
+    assert answer.certificate is not None
+    external, mass = answer.certificate.goals
+    assert answer.certificate.objective == pytest.approx(external.limit, rel=1e-6)
     assert mass.lower_bound == pytest.approx(mass.value, rel=1e-4)
-    assert verdict(body, found.model_dump(mode="json")) != "broken"
+    assert verdict(body, answer.model_dump(mode="json")) != "broken"
     for share, over in ((1.001, False), (0.99, True)):
         budget = {**machine, "max_total_mass_kg": share * mass.value}
         least = optimized({"machine": budget, "objective": WEIGHTS}).certificate
@@ -154,7 +156,7 @@ def test_over_the_turn_and_in_scenarios() -> None:
     machine["webs"] = machine["webs"][:2]
     goals = order_of(("bearings", 0.1), ("pieces", 0.0), ("mass", 0.0))
     goal = {"bearing_weight": 1, "force_weight": 0, "moment_weight": 0, "priorities": goals}
-    _, proof = certified(asked(machine, **goal) | {"scenarios": [FAST, SLOW]})
+    _, proof = certified(request_body(machine, **goal) | {"scenarios": [FAST, SLOW]})
     _, u = every_set(machine)
     cases = ((1.0, Loads(machine)), (0.5, Loads(machine | {"speed_rpm": 1300})))
     value = np.max([weight * loads.peak(u) for weight, loads in cases], axis=0)
@@ -173,18 +175,18 @@ def test_over_the_turn_and_in_scenarios() -> None:
 def test_cheaper_choices_over_the_turn() -> None:
     """Independent: all sets at 360 angles by statics."""
     machine = turning_twin()
-    body = asked(machine, bearing_weight=1, force_weight=0, moment_weight=0) | {"alternatives": [0.05, 0.3]}
-    found, proof = certified(body)
+    body = request_body(machine, bearing_weight=1, force_weight=0, moment_weight=0) | {"alternatives": [0.05, 0.3]}
+    optimum, proof = certified(body)
     _, u = every_set(machine)
     value = Loads(machine).peak(u)
     pieces = np.count_nonzero(np.abs(u) > 0, axis=-1)
-    for one in found.alternatives:
-        most = proof.objective * (1 + one.allowance)
-        assert one.objective <= most * (1 + 1e-9)
-        if one.minimised == "pieces":
-            assert one.pieces == np.min(pieces[value <= most * (1 - DEGREE)])
-            assert one.lower_bound == one.pieces
-    assert {"mass", "pieces"} <= {one.minimised for one in found.alternatives}
+    for alternative in optimum.alternatives:
+        most = proof.objective * (1 + alternative.allowance)
+        assert alternative.objective <= most * (1 + 1e-9)
+        if alternative.minimised == "pieces":
+            assert alternative.pieces == np.min(pieces[value <= most * (1 - DEGREE)])
+            assert alternative.lower_bound == alternative.pieces
+    assert {"mass", "pieces"} <= {optimum_alternative.minimised for optimum_alternative in optimum.alternatives}
 
 
 def test_groups_count_each_of_their_castings() -> None:
@@ -194,33 +196,33 @@ def test_groups_count_each_of_their_castings() -> None:
     for place in machine["webs"]:
         place["throw"] = 0
     goals = order_of(("external", 0.3), ("pieces", 0.0))
-    found = optimized({"machine": machine, "objective": {**WEIGHTS, "priorities": goals}})
-    assert found.certificate is not None
-    masses = {one.web: one.mass_kg for one in found.counterweights}
+    answer = optimized({"machine": machine, "objective": {**WEIGHTS, "priorities": goals}})
+    assert answer.certificate is not None
+    masses = {counterweight.web: counterweight.mass_kg for counterweight in answer.counterweights}
     assert masses["a"] == masses["b"]
-    assert found.certificate.goals[1].value == sum(mass > 0 for mass in masses.values())
+    assert answer.certificate.goals[1].value == sum(mass > 0 for mass in masses.values())
 
 
 def test_least_fitted_masses_are_made_light() -> None:
     """Independent: masses of a fine grid of one web; the other carries nothing."""
     machine = two_webs()
     goals = order_of(("external", 0.2), ("mass", 0.0))
-    body = asked(machine, 1e-4, priorities=goals, moment_weight=0.0)
+    body = request_body(machine, 1e-4, priorities=goals, moment_weight=0.0)
     # the mass stays open to the last digit, however long it is searched
     body["accuracy"]["time_limit_s"] = 0.5
-    found = optimized(body)
-    assert found.certificate is not None
-    external, mass = found.certificate.goals
-    assert all(one.mass_kg == 0.0 or one.mass_kg >= 14.0 for one in found.counterweights)
-    assert found.certificate.objective <= external.limit * (1 + 1e-9)
+    answer = optimized(body)
+    assert answer.certificate is not None
+    external, mass = answer.certificate.goals
+    assert all(counterweight.mass_kg == 0.0 or counterweight.mass_kg >= 14.0 for counterweight in answer.counterweights)
+    assert answer.certificate.objective <= external.limit * (1 + 1e-9)
     assert mass.lower_bound is not None
     assert mass.lower_bound <= mass.value * (1 + 1e-9)
     loads = Loads(machine)
     turned = np.exp(1j * np.linspace(0, 2 * np.pi, 721))
-    one_web = [m * 0.12 * turned for m in (0.0, *np.linspace(14, 16, 21))]
-    options = np.unique(np.concatenate(one_web))
-    u = np.array([[each, 0] for each in options] + [[0, each] for each in options])
-    force, _ = loads.frame(u, found.reference_plane_m)
+    values = [m * 0.12 * turned for m in (0.0, *np.linspace(14, 16, 21))]
+    options = np.unique(np.concatenate(values))
+    u = np.array([[option, 0] for option in options] + [[0, option] for option in options])
+    force, _ = loads.frame(u, answer.reference_plane_m)
     light = np.sum(np.abs(u), axis=-1) / 0.12
     within = light[force <= external.limit]
     assert mass.value <= float(np.min(within, initial=np.inf)) * (1 + 1e-6)
@@ -262,9 +264,9 @@ def test_more_sizes_than_counterweights_are_refused() -> None:
 def refused(machine: dict[str, Any], goals: list[dict[str, Any]], field: str, words: str) -> None:
     with pytest.raises(InvalidRequest) as error:
         check(OptimizeRequest, {"machine": machine, "objective": {"priorities": goals}})
-    said = {pointer(each.path): each.message for each in error.value.problems}
-    assert field in said
-    assert words in said[field]
+    messages = {pointer(problem.path): problem.message for problem in error.value.problems}
+    assert field in messages
+    assert words in messages[field]
 
 
 def test_a_bound_above_its_value_is_said_and_proves_nothing(
@@ -272,8 +274,8 @@ def test_a_bound_above_its_value_is_said_and_proves_nothing(
 ) -> None:
     least = Costs.least
 
-    def contradicted(costs: Costs, *wanted: Any) -> tuple[Choice | None, float]:
-        choice, bound = least(costs, *wanted)
+    def contradicted(costs: Costs, *arguments: Any) -> tuple[Choice | None, float]:
+        choice, bound = least(costs, *arguments)
         return choice, 2.0 * bound
 
     monkeypatch.setattr(Costs, "least", contradicted)

@@ -29,8 +29,8 @@ def _without_influence(ceiling: float) -> Body:
 @pytest.mark.parametrize(("ceiling", "status"), [(1.0, "infeasible"), (1e9, "optimal"), (0.0, "infeasible")])
 def test_a_web_that_does_nothing_to_what_counts(ceiling: float, status: str) -> None:
     body = _without_influence(ceiling)
-    found = optimized(body)
-    assert found.status == status
+    answer = optimized(body)
+    assert answer.status == status
     request = sweep(body, {"path": "/machine/speed_rpm", "values": [body["machine"]["speed_rpm"]]})
     assert run_chunk(request.model_dump_json().encode(), 0, 1).to_pylist()[0]["status"] == status
     assert pareto(ParetoRequest.model_validate(body | {"points": 3})).status == status
@@ -40,8 +40,8 @@ def test_a_web_that_does_nothing_to_what_counts(ceiling: float, status: str) -> 
 @pytest.mark.parametrize("combine", ["sum", "max"])
 def test_weights_of_every_size(weights: tuple[float, float], combine: str) -> None:
     goal = {"force_weight": weights[0], "moment_weight": weights[1], "combine": combine}
-    found = optimized({"machine": machine(v_twin(), four_webs()), "objective": goal})
-    assert found.status == "optimal"
+    answer = optimized({"machine": machine(v_twin(), four_webs()), "objective": goal})
+    assert answer.status == "optimal"
 
 
 @pytest.mark.parametrize(
@@ -58,10 +58,10 @@ _SMALL = [*product(FEATURES, (5, 6, 8, 9, 12)), ("catalogue", 21), ("plates", 23
 
 @pytest.mark.parametrize(("feature", "number"), part(4, _SMALL, rows=True))
 def test_random_bodies_with_a_feature_raise_nothing(feature: str, number: int) -> None:
-    asked = drawn(number, 0, feature)
-    if "parts" not in asked:
-        asked["accuracy"]["time_limit_s"] = 30.0
-    strictly(lambda: checked(asked))
+    drawing = drawn(number, 0, feature)
+    if "parts" not in drawing:
+        drawing["accuracy"]["time_limit_s"] = 30.0
+    strictly(lambda: checked(drawing))
 
 
 @pytest.mark.parametrize("number", [228, 345, 610, 1124, 1840, 3366])
@@ -74,7 +74,7 @@ def test_what_the_checker_once_refuted(number: int) -> None:
 def _with_masses(node: Any, factor: float) -> Any:
     """The same with all masses, and what is limited in newtons, times a factor."""
     if isinstance(node, list):
-        return [_with_masses(each, factor) for each in node]
+        return [_with_masses(value, factor) for value in node]
     if not isinstance(node, dict):
         return node
     units = ("_kg", "_N", "_Nm")

@@ -28,14 +28,14 @@ def issued(far: float | None) -> Body:
 
 @pytest.mark.parametrize("far", [1.0, 1e3, 1e7, 1e12, 1e15, 1e300, None])
 def test_a_budget_beside_a_far_limit(far: float | None) -> None:
-    found = optimized(issued(far))
-    proof = found.certificate
-    assert found.status == "optimal"
+    answer = optimized(issued(far))
+    proof = answer.certificate
+    assert answer.status == "optimal"
     assert proof.objective == pytest.approx(8.68, abs=1.1e-5)  # analytic; optima differ by 1e-6 of 10
     assert 8.68 * (1 - 1e-9) <= proof.lower_bound <= 8.68
-    assert [one.mass_kg for one in found.counterweights] == pytest.approx([0.32, 0.68], rel=2e-5)
+    assert [counterweight.mass_kg for counterweight in answer.counterweights] == pytest.approx([0.32, 0.68], rel=2e-5)
     # the budget is what holds the objective up: a kilogram more goes to B
-    prices = {(price.limit, price.web): price.value for price in found.shadow_prices}
+    prices = {(price.limit, price.web): price.value for price in answer.shadow_prices}
     assert prices == {("max_mass", "A"): pytest.approx(1.0), ("max_total_mass", None): pytest.approx(1.0)}
 
 
@@ -46,9 +46,9 @@ def test_the_same_in_a_sweep_and_as_what_can_be_reached() -> None:
     assert [row["status"] for row in rows] == ["optimal"] * 3
     assert [row["lower_bound"] for row in rows] == pytest.approx([8.68] * 3, rel=1e-9)  # analytic
     infeasible = issued(1e15) | {"objective": {"force_ceiling_N": 8.6}}
-    told = optimized(infeasible).infeasibility
-    assert 8.68 * (1 - 1e-9) <= told.smallest_force_lower_bound_N <= 8.68
-    assert told.smallest_force_N == pytest.approx(8.68, rel=1e-9)
+    infeasibility = optimized(infeasible).infeasibility
+    assert 8.68 * (1 - 1e-9) <= infeasibility.smallest_force_lower_bound_N <= 8.68
+    assert infeasibility.smallest_force_N == pytest.approx(8.68, rel=1e-9)
 
 
 def test_forty_limits_up_to_1e300_beside_a_budget() -> None:
@@ -63,10 +63,10 @@ def test_forty_limits_up_to_1e300_beside_a_budget() -> None:
 
 def test_the_same_in_a_front() -> None:
 
-    found = pareto(ParetoRequest.model_validate(issued(1e15) | {"points": 3}))
-    assert found.status == "optimal"
-    assert found.fronts[0].ends.smallest_force_lower_bound_N == pytest.approx(8.68, rel=1e-6)  # analytic
-    assert found.fronts[0].ends.smallest_force_lower_bound_N <= 8.68 * (1 + 1e-15)
+    answer = pareto(ParetoRequest.model_validate(issued(1e15) | {"points": 3}))
+    assert answer.status == "optimal"
+    assert answer.fronts[0].ends.smallest_force_lower_bound_N == pytest.approx(8.68, rel=1e-6)  # analytic
+    assert answer.fronts[0].ends.smallest_force_lower_bound_N <= 8.68 * (1 + 1e-15)
 
 
 def _random(seed: int, sectors: bool, budget: bool, ceiling: bool) -> Body:
@@ -94,8 +94,8 @@ def _random(seed: int, sectors: bool, budget: bool, ceiling: bool) -> Body:
 
 def _limited(body: Body, most: float) -> Body:
     changed = copy.deepcopy(body)
-    for one in changed["machine"]["webs"]:
-        one["max_mass_kg"] = most if one["max_mass_kg"] is None else one["max_mass_kg"]
+    for plane in changed["machine"]["webs"]:
+        plane["max_mass_kg"] = most if plane["max_mass_kg"] is None else plane["max_mass_kg"]
     return changed
 
 
@@ -106,16 +106,16 @@ def test_no_limit_is_any_limit_that_is_large_enough(seed: int) -> None:
     free = optimized(body)
     assert free.status == "optimal"
     proof = free.certificate
-    unlimited = {one["name"] for one in body["machine"]["webs"] if one["max_mass_kg"] is None}
+    unlimited = {plane["name"] for plane in body["machine"]["webs"] if plane["max_mass_kg"] is None}
     assert set(proof.implied_max_mass_kg) == unlimited
     for most in (max(proof.implied_max_mass_kg.values(), default=1.0), 1e5, 1e12, 1e300):
-        found = optimized(_limited(body, most))
+        answer = optimized(_limited(body, most))
         size = proof.yardstick
-        assert found.status == "optimal"
-        assert found.certificate.objective == pytest.approx(proof.objective, abs=2e-6 * size)
-        assert found.certificate.lower_bound <= proof.objective
-        assert proof.lower_bound <= found.certificate.objective
-        assert found.total_mass_kg == pytest.approx(free.total_mass_kg, rel=3e-4, abs=1e-9)
+        assert answer.status == "optimal"
+        assert answer.certificate.objective == pytest.approx(proof.objective, abs=2e-6 * size)
+        assert answer.certificate.lower_bound <= proof.objective
+        assert proof.lower_bound <= answer.certificate.objective
+        assert answer.total_mass_kg == pytest.approx(free.total_mass_kg, rel=3e-4, abs=1e-9)
 
 
 def test_no_limit_in_a_sweep_and_in_a_front() -> None:

@@ -16,7 +16,7 @@ from optimizer.program.scaled_program import ScaledSolution
 from optimizer.program.verdict import CONTRADICTED
 from schemas.answer.answers import Certificate, OptimizeAnswer
 from schemas.request.requests import AnalyzeRequest, OptimizeRequest
-from tests.optimize.whole_turn import ALONE, asked, one_throw
+from tests.optimize.whole_turn import ALONE, request_of, single_throw
 from tests.verification.every import unchecked
 
 #: published for a rod ratio of 1/3: the largest load with and without the best counterweights, N
@@ -25,18 +25,18 @@ _EXTERNAL_FIRST = [{"goal": "external", "allowance": 0.5}, {"goal": "bearings"}]
 
 
 def _answer(compute: Callable[[OptimizeRequest], OptimizeAnswer] = optimize, **objective: Any) -> OptimizeAnswer:
-    return compute(asked(one_throw(3.0), bearing_weight=1, **objective))
+    return compute(request_of(single_throw(3.0), bearing_weight=1, **objective))
 
 
-def _proof(found: OptimizeAnswer) -> Certificate:
-    assert found.certificate is not None
-    return found.certificate
+def _proof(answer: OptimizeAnswer) -> Certificate:
+    assert answer.certificate is not None
+    return answer.certificate
 
 
 def _lying(monkeypatch: pytest.MonkeyPatch, change: Callable[[ScaledSolution], ScaledSolution]) -> None:
     def lying(*args: Any, **kwargs: Any) -> Assembled | NoPoint:
-        found = solved(*args, **kwargs)
-        return found if isinstance(found, NoPoint) else found._replace(solution=change(found.solution))
+        solution = solved(*args, **kwargs)
+        return solution if isinstance(solution, NoPoint) else solution._replace(solution=change(solution.solution))
 
     monkeypatch.setattr(cut_stage, "solved", lying)
 
@@ -47,10 +47,10 @@ def test_a_solver_that_finds_nothing_leaves_what_rest_proves(
     limit: dict[str, float], least_mass: bool, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(cut_stage, "solved", lambda *_, **__: NoPoint("not solved within 5 s"))
-    found = _answer(least_mass=least_mass, **ALONE, **limit)
-    assert found.status == "inaccurate"
-    assert found.total_mass_kg == 0.0
-    proof = _proof(found)
+    answer = _answer(least_mass=least_mass, **ALONE, **limit)
+    assert answer.status == "inaccurate"
+    assert answer.total_mass_kg == 0.0
+    proof = _proof(answer)
     assert proof.objective == pytest.approx(_AT_REST, rel=1e-9)
     assert proof.lower_bound is not None
     assert 0.0 <= proof.lower_bound <= _SMALLEST
@@ -59,10 +59,10 @@ def test_a_solver_that_finds_nothing_leaves_what_rest_proves(
 def test_a_ceiling_below_a_floor_needs_no_solver_to_be_refused(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(cut_stage, "solved", lambda *_, **__: NoPoint("not solved within 5 s"))
     # the smallest force and moment are as far from their bounds as that solver leaves them
-    found = _answer(unchecked(optimize), **ALONE, bearing_ceiling_N=0.1)
-    assert found.status == "infeasible"
-    assert found.infeasibility is not None
-    assert found.infeasibility.conflict == ("bearing_ceiling_N",)
+    answer = _answer(unchecked(optimize), **ALONE, bearing_ceiling_N=0.1)
+    assert answer.status == "infeasible"
+    assert answer.infeasibility is not None
+    assert answer.infeasibility.conflict == ("bearing_ceiling_N",)
 
 
 def test_several_goals_need_no_solver_to_be_answered(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -74,40 +74,44 @@ def test_several_goals_need_no_solver_to_be_answered(monkeypatch: pytest.MonkeyP
     assert proof.objective == pytest.approx(_AT_REST, rel=1e-9)
 
 
-def _elsewhere(found: ScaledSolution) -> ScaledSolution:
+def _elsewhere(solution: ScaledSolution) -> ScaledSolution:
     rng = np.random.default_rng(1)
-    return found._replace(x=rng.normal(size=found.x.shape), y=rng.normal(size=found.y.shape))
+    return solution._replace(x=rng.normal(size=solution.x.shape), y=rng.normal(size=solution.y.shape))
 
 
-def _wrong_multipliers(found: ScaledSolution) -> ScaledSolution:
+def _wrong_multipliers(solution: ScaledSolution) -> ScaledSolution:
     rng = np.random.default_rng(2)
 
-    def other(size: int) -> Any:
+    def fault(size: int) -> Any:
         return 1e3 * rng.normal(size=(size, 2)) @ [1, 1j]
 
-    row = 1e3 * rng.uniform(size=found.row.shape)
-    return found._replace(row=row, term=other(found.term.size), ceiling=other(found.ceiling.size))
+    row = 1e3 * rng.uniform(size=solution.row.shape)
+    return solution._replace(row=row, term=fault(solution.term.size), ceiling=fault(solution.ceiling.size))
 
 
-@pytest.mark.parametrize("lie", [_elsewhere, _wrong_multipliers, lambda found: _wrong_multipliers(_elsewhere(found))])
+@pytest.mark.parametrize("lie", [_elsewhere, _wrong_multipliers, lambda value: _wrong_multipliers(_elsewhere(value))])
 def test_a_solver_that_lies_proves_nothing_false(
     lie: Callable[[ScaledSolution], ScaledSolution], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     _lying(monkeypatch, lie)
-    found = _answer(**ALONE)
-    assert found.status == "inaccurate"
-    proof = _proof(found)
+    answer = _answer(**ALONE)
+    assert answer.status == "inaccurate"
+    proof = _proof(answer)
     assert proof.lower_bound is not None
     assert proof.lower_bound <= _SMALLEST + 1e-6
     # independent: the loads of what is returned, by the analysis of samples
-    fitted = [each.model_dump(include={"web", "mass_kg", "angle_deg"}) for each in found.counterweights]
-    body = {"machine": one_throw(3.0), "counterweights": fitted, "outputs": ["main_bearings"]}
+    fitted = [
+        counterweight.model_dump(include={"web", "mass_kg", "angle_deg"}) for counterweight in answer.counterweights
+    ]
+    body = {"machine": single_throw(3.0), "counterweights": fitted, "outputs": ["main_bearings"]}
     loads = analyze(AnalyzeRequest.model_validate(body)).main_bearings
     assert loads is not None
-    peak = max((each.after or each.before).peak_N for each in loads.bearings)
+    peak = max((bearing.after or bearing.before).peak_N for bearing in loads.bearings)
     assert proof.objective == pytest.approx(peak, rel=1e-3)
     assert proof.objective >= _SMALLEST - 1e-6
-    assert found.total_mass_kg == pytest.approx(sum(each.mass_kg for each in found.counterweights), rel=1e-12)
+    assert answer.total_mass_kg == pytest.approx(
+        sum(counterweight.mass_kg for counterweight in answer.counterweights), rel=1e-12
+    )
 
 
 def _raised(monkeypatch: pytest.MonkeyPatch, wrong: Callable[..., bool]) -> None:
@@ -142,9 +146,9 @@ def test_a_bound_above_its_value_is_a_fault_that_is_said(
     """Never clipped: nothing is proven, and it is logged, which is what counts faults."""
     _raised(monkeypatch, wrong)
     # the limit of a goal is counted from the wrong bound
-    found = _answer(unchecked(optimize), least_mass=False, **objective)
-    assert (found.status, found.status_reason) == ("inaccurate", CONTRADICTED)
-    proof = _proof(found)
+    answer = _answer(unchecked(optimize), least_mass=False, **objective)
+    assert (answer.status, answer.status_reason) == ("inaccurate", CONTRADICTED)
+    proof = _proof(answer)
     assert proof.lower_bound is proof.gap is proof.relative_gap is None
     assert all(goal.lower_bound is None for goal in proof.goals)
     assert [record.levelno for record in caplog.records] == [logging.ERROR]

@@ -21,10 +21,10 @@ from tests.verification.checking import optimized
 def fitted(seed: int, most: float | None, sectors: float = 0.0, least: float = 2.0) -> Body:
     """One or two throws whose counterweights weigh at least 1 to 10^``least`` kg."""
     rng = np.random.default_rng([seed, 77])
-    found = crankshaft(rng, sectors, most_throws=2)
-    for web in found["webs"]:
+    machine = crankshaft(rng, sectors, most_throws=2)
+    for web in machine["webs"]:
         web["min_fitted_mass_kg"], web["max_mass_kg"] = float(10 ** rng.uniform(0, least)), most
-    return {"machine": found}
+    return {"machine": machine}
 
 
 @pytest.mark.parametrize("sectors", part(2, [0.0, 0.8]))
@@ -49,9 +49,9 @@ def test_what_is_fitted_may_be_heavier_than_any_optimum_of_any_masses() -> None:
     body = fitted(0, None)
     del body["machine"]["webs"][1:]
     body["machine"]["webs"][0]["min_fitted_mass_kg"] = 1e6
-    found = optimized(body)
-    assert found.status == "optimal"
-    assert found.total_mass_kg == 0.0
+    answer = optimized(body)
+    assert answer.status == "optimal"
+    assert answer.total_mass_kg == 0.0
 
 
 def test_two_webs_in_one_plane_hold_one_another() -> None:
@@ -66,13 +66,15 @@ def test_two_webs_in_one_plane_hold_one_another() -> None:
         }
         for name in "ab"
     ]  # fmt: skip
-    found = optimized({"machine": {"kind": "reciprocating", "speed_rpm": 600, "throws": [throw], "webs": webs}})
-    assert found.status == "optimal"
-    assert found.certificate is not None
+    answer = optimized({"machine": {"kind": "reciprocating", "speed_rpm": 600, "throws": [throw], "webs": webs}})
+    assert answer.status == "optimal"
+    assert answer.certificate is not None
     # 4 kg m are called for, and each carries at least 10
-    x, y = (sum(getattr(one, name) for one in found.counterweights) for name in ("x_kg_m", "y_kg_m"))
+    x, y = (
+        sum(getattr(counterweight, name) for counterweight in answer.counterweights) for name in ("x_kg_m", "y_kg_m")
+    )
     assert np.hypot(x + 4.0, y) <= 4.0 * 1e-3
-    assert all(one.mass_kg >= 50.0 for one in found.counterweights)
+    assert all(counterweight.mass_kg >= 50.0 for counterweight in answer.counterweights)
 
 
 @pytest.mark.parametrize("seed", range(20))
@@ -89,8 +91,8 @@ def test_the_reach_holds_whatever_the_webs_are_for(seed: int) -> None:
     heavier = within_semicontinuous_reach(program, 2.0 * least)
     assert np.all(heavier.limits.max_mass >= bounded.limits.max_mass)
     # finite limits are left as they are
-    given = replace(program, limits=replace(program.limits, max_mass=np.full(least.shape, 20.0)))
-    assert within_semicontinuous_reach(given, least) is given
+    statement = replace(program, limits=replace(program.limits, max_mass=np.full(least.shape, 20.0)))
+    assert within_semicontinuous_reach(statement, least) is statement
 
 
 @pytest.mark.parametrize("orders", ["first", pytest.param("all", marks=pytest.mark.nightly)])
@@ -153,7 +155,7 @@ def test_groups_need_limits() -> None:
     machine["web_groups"] = [{"name": "alike", "webs": [web["name"] for web in machine["webs"]]}]
     with pytest.raises(InvalidRequest) as refusal:
         check(OptimizeRequest, body)
-    assert "the masses of all webs have a limit" in str([each.message for each in refusal.value.problems])
+    assert "the masses of all webs have a limit" in str([problem.message for problem in refusal.value.problems])
 
 
 def _over_turn(seed: int, most: float | None, **objective: object) -> Body:

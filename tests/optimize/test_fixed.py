@@ -56,32 +56,38 @@ def test_nothing_else_is_chosen_than_with_an_unbalance_of_the_shaft(objective: d
     fixed, shaft = (optimized({**body, "objective": objective}) for body in (with_fixed(), as_unbalance()))
     assert fixed.status == shaft.status == "optimal"
     *chosen, old = fixed.counterweights
-    assert [one.mass_kg for one in chosen] == pytest.approx([one.mass_kg for one in shaft.counterweights], rel=1e-4)
+    assert [counterweight.mass_kg for counterweight in chosen] == pytest.approx(
+        [counterweight.mass_kg for counterweight in shaft.counterweights], rel=1e-4
+    )
     assert (old.mass_kg, old.angle_deg, old.radius_m, old.fixed, old.active_limits) == (KG, AT, RADIUS, True, ())
-    assert fixed.total_mass_kg == pytest.approx(KG + sum(one.mass_kg for one in chosen), rel=1e-12)
+    assert fixed.total_mass_kg == pytest.approx(KG + sum(counterweight.mass_kg for counterweight in chosen), rel=1e-12)
     before, after = fixed.residual.before, fixed.residual.after
     assert after is not None
     assert shaft.residual.after is not None
     assert after.force.peak_N == pytest.approx(shaft.residual.after.force.peak_N, rel=1e-4)
     assert before.force.peak_N == pytest.approx(optimized(BODY).residual.before.force.peak_N, rel=1e-12)
-    one, other = fixed.certificate, shaft.certificate
-    assert one is not None
-    assert other is not None
-    assert one.lower_bound == pytest.approx(other.lower_bound, rel=1e-6)
-    assert one.yardstick == pytest.approx(other.yardstick, rel=1e-12)
-    assert (one.mass_lower_bound_kg or 0.0) == pytest.approx((other.mass_lower_bound_kg or -KG) + KG, rel=1e-4)
+    certificate, second_certificate = fixed.certificate, shaft.certificate
+    assert certificate is not None
+    assert second_certificate is not None
+    assert certificate.lower_bound == pytest.approx(second_certificate.lower_bound, rel=1e-6)
+    assert certificate.yardstick == pytest.approx(second_certificate.yardstick, rel=1e-12)
+    assert (certificate.mass_lower_bound_kg or 0.0) == pytest.approx(
+        (second_certificate.mass_lower_bound_kg or -KG) + KG, rel=1e-4
+    )
 
 
-@pytest.mark.parametrize(("given", "told"), [(-30.0, 330.0), (390.0, 30.0), (360.0, 0.0)])
-def test_its_angle_is_told_within_one_turn(given: float, told: float) -> None:
-    found = {one.web: one for one in optimized(with_fixed(angle_deg=given)).counterweights}
-    assert found["old"].angle_deg == pytest.approx(told, abs=1e-9)
+@pytest.mark.parametrize(("value", "number"), [(-30.0, 330.0), (390.0, 30.0), (360.0, 0.0)])
+def test_its_angle_is_told_within_one_turn(value: float, number: float) -> None:
+    counterweights = {
+        counterweight.web: counterweight for counterweight in optimized(with_fixed(angle_deg=value)).counterweights
+    }
+    assert counterweights["old"].angle_deg == pytest.approx(number, abs=1e-9)
 
 
 def test_its_mass_counts_in_the_budget() -> None:
-    body, other = with_fixed(), as_unbalance()
-    body["machine"]["max_total_mass_kg"], other["machine"]["max_total_mass_kg"] = 8.0, 8.0 - KG
-    fixed, shaft = optimized(body), optimized(other)
+    body, payload = with_fixed(), as_unbalance()
+    body["machine"]["max_total_mass_kg"], payload["machine"]["max_total_mass_kg"] = 8.0, 8.0 - KG
+    fixed, shaft = optimized(body), optimized(payload)
     assert fixed.total_mass_kg == pytest.approx(8.0, rel=1e-5)
     assert fixed.active_limits == shaft.active_limits == ("max_total_mass",)
     assert fixed.certificate is not None
@@ -99,13 +105,13 @@ def test_scenarios_have_it() -> None:
 
 
 def test_it_is_analyzed_though_nobody_names_it() -> None:
-    told = analyze(AnalyzeRequest.model_validate({"machine": with_fixed()["machine"]}))
+    answer = analyze(AnalyzeRequest.model_validate({"machine": with_fixed()["machine"]}))
     shaft = analyze(AnalyzeRequest.model_validate({"machine": as_unbalance()["machine"]}))
-    assert told.total_mass_kg == KG
-    assert told.residual is not None
-    assert told.residual.after is not None
+    assert answer.total_mass_kg == KG
+    assert answer.residual is not None
+    assert answer.residual.after is not None
     assert shaft.residual is not None
-    assert told.residual.after.moment.peak_Nm == pytest.approx(shaft.residual.before.moment.peak_Nm, rel=1e-12)
+    assert answer.residual.after.moment.peak_Nm == pytest.approx(shaft.residual.before.moment.peak_Nm, rel=1e-12)
 
 
 def test_rows_of_a_sweep_are_single_answers() -> None:
@@ -132,9 +138,9 @@ def test_points_of_a_front_have_it() -> None:
     fixed, shaft = (
         pareto(ParetoRequest.model_validate({**body, "points": 3})).fronts[0] for body in (with_fixed(), as_unbalance())
     )
-    for one, other in zip(fixed.points, shaft.points, strict=True):
-        assert one.force_peak_N == pytest.approx(other.force_peak_N, rel=1e-4)
-        assert one.total_mass_kg == pytest.approx(other.total_mass_kg + KG, rel=1e-3)
+    for point, second_point in zip(fixed.points, shaft.points, strict=True):
+        assert point.force_peak_N == pytest.approx(second_point.force_peak_N, rel=1e-4)
+        assert point.total_mass_kg == pytest.approx(second_point.total_mass_kg + KG, rel=1e-3)
 
 
 def test_the_checker_finds_a_fixed_weight_that_moved() -> None:
@@ -142,7 +148,7 @@ def test_the_checker_finds_a_fixed_weight_that_moved() -> None:
     answer = optimized(body).model_dump(mode="json")
     assert not broken(body, answer)
     answer["counterweights"][2]["mass_kg"] *= 1.01
-    assert any("fixed" in each for each in broken(body, answer))
+    assert any("fixed" in claim for claim in broken(body, answer))
 
 
 @pytest.mark.parametrize(
@@ -162,8 +168,8 @@ def test_bad_input_names_the_field(change: dict[str, Any], pointer: tuple[str, .
     with pytest.raises(ValidationError) as refused:
         OptimizeRequest.model_validate(body)
     (problem, *_) = refused.value.errors()
-    found = problem.get("ctx", {}).get("problems", [])
-    path = found[0].path if found else problem["loc"][-len(pointer) :]
+    problems = problem.get("ctx", {}).get("problems", [])
+    path = problems[0].path if problems else problem["loc"][-len(pointer) :]
     assert tuple(path) == pointer
 
 
@@ -175,6 +181,8 @@ def test_heavier_than_all_that_is_allowed() -> None:
 
 
 def test_no_other_counterweight_in_its_place() -> None:
-    given = [{"web": "old", "mass_kg": 1, "angle_deg": 0}]
+    counterweights = [{"web": "old", "mass_kg": 1, "angle_deg": 0}]
     with pytest.raises(ValidationError, match="fixed in the machine, as another one"):
-        AnalyzeRequest.model_validate_json(json.dumps({"machine": with_fixed()["machine"], "counterweights": given}))
+        AnalyzeRequest.model_validate_json(
+            json.dumps({"machine": with_fixed()["machine"], "counterweights": counterweights})
+        )

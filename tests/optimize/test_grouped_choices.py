@@ -19,7 +19,9 @@ HALVES = [["0a", "1b", "2a"], ["0b", "1a", "2b"]]
 MASSES = [1.5, 3.0, 4.5, 6.0, 9.0]
 
 
-def asked(groups: list[list[str]], mirror: bool, masses: list[float], step: float, **more: Any) -> dict[str, Any]:
+def request_body(
+    groups: list[list[str]], mirror: bool, masses: list[float], step: float, **more: Any
+) -> dict[str, Any]:
     body = grouped(groups, mirror, **more)
     body["machine"]["catalogue"] = {"masses_kg": masses, "angle_step_deg": step}
     body["accuracy"] = {"relative_gap": 1e-9, "time_limit_s": 30}
@@ -32,8 +34,8 @@ def every_set(body: dict[str, Any]) -> tuple[np.ndarray, np.ndarray]:
     groups = [group["webs"] for group in machine["web_groups"]]
     groups += [[name] for name in NAMES if not any(name in group for group in groups)]
     steps = np.arange(0.0, 360.0, machine["catalogue"]["angle_step_deg"])
-    each = [0j, *(m * np.exp(1j * np.radians(a)) for m in machine["catalogue"]["masses_kg"] for a in steps)]
-    sets = np.array(list(product(each, repeat=len(groups))))
+    values = [0j, *(m * np.exp(1j * np.radians(a)) for m in machine["catalogue"]["masses_kg"] for a in steps)]
+    sets = np.array(list(product(values, repeat=len(groups))))
     on_webs = np.zeros((len(sets), 6), complex)
     for g, group in enumerate(groups):
         mirror = g < len(machine["web_groups"]) and machine["web_groups"][g].get("mirror", False)
@@ -62,22 +64,22 @@ def test_no_set_by_hand_is_better(
     mirror: bool, groups: list[list[str]], masses: list[float], step: float, limits: dict[str, Any]
 ) -> None:
     """Independent: all sets, up to 15,625, by sums over throws and webs."""
-    body = asked(groups, mirror, masses, step)
+    body = request_body(groups, mirror, masses, step)
     catalogue = body["machine"]["catalogue"]
     for name, value in limits.items():
         (catalogue if name == "max_part_numbers" else body["machine"])[name] = value
-    found = sound_answer(body)
-    alike(found, groups, mirror)
+    answer = sound_answer(body)
+    alike(answer, groups, mirror)
     mass, u = every_set(body)
-    kept = np.sum(mass, axis=-1) <= limits.get("max_total_mass_kg", np.inf) * (1 + 1e-12)
-    kept &= np.sum(mass > 0, axis=-1) <= limits.get("max_counterweights", 6)
+    mask = np.sum(mass, axis=-1) <= limits.get("max_total_mass_kg", np.inf) * (1 + 1e-12)
+    mask &= np.sum(mass > 0, axis=-1) <= limits.get("max_counterweights", 6)
     different = [len(set(np.round(row[row > 0], 9))) for row in mass]
-    kept &= np.array(different) <= limits.get("max_part_numbers", 6)
-    best = float(np.min(objective(body, u[kept])))
-    assert found.status == "optimal"
-    assert found.certificate is not None
-    assert found.certificate.objective == pytest.approx(best, rel=1e-9)
-    assert found.certificate.lower_bound == pytest.approx(best, rel=1e-9)
+    mask &= np.array(different) <= limits.get("max_part_numbers", 6)
+    best = float(np.min(objective(body, u[mask])))
+    assert answer.status == "optimal"
+    assert answer.certificate is not None
+    assert answer.certificate.objective == pytest.approx(best, rel=1e-9)
+    assert answer.certificate.lower_bound == pytest.approx(best, rel=1e-9)
 
 
 @pytest.mark.parametrize("mirror", part(2, [False, True]))
@@ -88,23 +90,23 @@ def test_a_tree_finds_what_trying_all_sets_does(
     """Independent: 117,649 sets, by sums over throws and webs; halves are given no room, and leaves of the tree few."""
     monkeypatch.setattr("optimizer.choices.discrete.search._SUMS", 1)
     monkeypatch.setattr("optimizer.choices.discrete.branch._SETS", 20)
-    body = asked(PAIRS, mirror, [2.0, 5.0, 9.0], 22.5, objective={"force_ceiling_N": ceiling})
-    found = sound_answer(body)
-    assert found.certificate is not None
-    assert found.certificate.method == "branch and bound"
-    alike(found, PAIRS, mirror)
+    body = request_body(PAIRS, mirror, [2.0, 5.0, 9.0], 22.5, objective={"force_ceiling_N": ceiling})
+    answer = sound_answer(body)
+    assert answer.certificate is not None
+    assert answer.certificate.method == "branch and bound"
+    alike(answer, PAIRS, mirror)
     _, u = every_set(body)
-    kept = objective(body, u, moment_share=0.0) <= (ceiling or np.inf)
-    best = float(np.min(objective(body, u[kept])))
-    assert found.status == "optimal"
-    assert found.certificate.objective == pytest.approx(best, rel=1e-9)
-    assert found.certificate.lower_bound == pytest.approx(best, rel=1e-9)
+    mask = objective(body, u, moment_share=0.0) <= (ceiling or np.inf)
+    best = float(np.min(objective(body, u[mask])))
+    assert answer.status == "optimal"
+    assert answer.certificate.objective == pytest.approx(best, rel=1e-9)
+    assert answer.certificate.lower_bound == pytest.approx(best, rel=1e-9)
 
 
 @pytest.mark.parametrize("mirror", [False, True])
 def test_counts_are_of_webs(mirror: bool) -> None:
     """Independent: of every number of webs the best by hand, where a group takes two or none."""
-    body = asked(PAIRS, mirror, [3.0, 6.0, 9.0], 45.0) | {"counts": {"of": "weights", "least": "objective"}}
+    body = request_body(PAIRS, mirror, [3.0, 6.0, 9.0], 45.0) | {"counts": {"of": "weights", "least": "objective"}}
     (front,) = pareto(ParetoRequest.model_validate(body)).counts
     mass, u = every_set(body)
     value, fitted = objective(body, u), np.sum(mass > 0, axis=-1)
@@ -124,23 +126,23 @@ def test_counts_are_of_webs(mirror: bool) -> None:
     ],
 )
 def test_unlike_choices_are_refused(change: dict[str, Any], words: str) -> None:
-    body = asked([["0a", "0b"]], False, MASSES, 15.0)
+    body = request_body([["0a", "0b"]], False, MASSES, 15.0)
     body["machine"]["webs"][1] |= change
-    with pytest.raises(OutOfRange) as found:
+    with pytest.raises(OutOfRange) as refusal:
         optimized(body)
-    assert found.value.problems[0].path == ("machine", "web_groups", 0, "webs", 1)
-    assert words in found.value.problems[0].message
+    assert refusal.value.problems[0].path == ("machine", "web_groups", 0, "webs", 1)
+    assert words in refusal.value.problems[0].message
 
 
 @pytest.mark.parametrize("mirror", [False, True])
 def test_holes_count_from_the_own_crank(mirror: bool) -> None:
-    body = asked([["0a", "1a"]], mirror, [3.0, 6.0], 90.0)
+    body = request_body([["0a", "1a"]], mirror, [3.0, 6.0], 90.0)
     webs, sign = body["machine"]["webs"], -1 if mirror else 1
     webs[0]["hole_angles_deg"] = [170.0, 200.0, 0.0]
     webs[2]["hole_angles_deg"] = [120.0, 120.0 + sign * 200.0, 480.0 + sign * 170.0]
-    found = optimized(body)
-    alike(found, [["0a", "1a"]], mirror)
-    assert found.counterweights[0].angle_deg in (170.0, 200.0)
+    answer = optimized(body)
+    alike(answer, [["0a", "1a"]], mirror)
+    assert answer.counterweights[0].angle_deg in (170.0, 200.0)
 
 
 @pytest.mark.parametrize("mirror", part(2, [False, True]))
@@ -151,18 +153,18 @@ def test_no_least_mass_by_hand_is_better(mirror: bool, groups: list[list[str]], 
     for web in body["machine"]["webs"]:
         web["min_fitted_mass_kg"] = least
     body["accuracy"] = {"relative_gap": 1e-3, "time_limit_s": 30}
-    found = sound_answer(body)
-    alike(found, groups, mirror)
-    assert all(one.mass_kg == 0 or one.mass_kg >= least for one in found.counterweights)
+    answer = sound_answer(body)
+    alike(answer, groups, mirror)
+    assert all(counterweight.mass_kg == 0 or counterweight.mass_kg >= least for counterweight in answer.counterweights)
     turn = np.exp(1j * np.radians(np.repeat(ANGLES, 2))) * RADIUS
     owner = np.array([next(g for g, group in enumerate(groups) if name in group) for name in NAMES])
-    other = np.array([mirror and groups[g].index(name) % 2 == 1 for g, name in zip(owner, NAMES, strict=True)])
+    mirrors = np.array([mirror and groups[g].index(name) % 2 == 1 for g, name in zip(owner, NAMES, strict=True)])
 
     def value(p: np.ndarray, fitted: tuple[bool, ...]) -> Any:
         """Of sizes from 0 to 1 between the limits and angles (..., 2 groups)."""
         size, angle = np.clip(p[..., : len(groups)], 0.0, 1.0), p[..., len(groups) :]
         w = np.where(fitted, (least + (12.0 - least) * size) * np.exp(1j * angle), 0.0)[..., owner]
-        return objective(body, np.where(other, np.conj(w), w) * turn)
+        return objective(body, np.where(mirrors, np.conj(w), w) * turn)
 
     chance, values = np.random.default_rng(17), []
     for fitted in product([False, True], repeat=len(groups)):
@@ -172,8 +174,8 @@ def test_no_least_mass_by_hand_is_better(mirror: bool, groups: list[list[str]], 
             minimize(value, start, (fitted,), method="Nelder-Mead", options={"xatol": 1e-9, "fatol": 1e-9}).fun
             for start in best
         ]
-    assert found.status == "optimal"
-    assert found.certificate is not None
-    assert found.certificate.objective <= min(values) + 1e-3 * found.certificate.yardstick
-    assert found.certificate.lower_bound is not None
-    assert found.certificate.lower_bound <= min(values) * (1 + 1e-9)
+    assert answer.status == "optimal"
+    assert answer.certificate is not None
+    assert answer.certificate.objective <= min(values) + 1e-3 * answer.certificate.yardstick
+    assert answer.certificate.lower_bound is not None
+    assert answer.certificate.lower_bound <= min(values) * (1 + 1e-9)

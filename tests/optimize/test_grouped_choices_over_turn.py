@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from tests.night import part
-from tests.optimize.choices import DEGREE, MASSES, Loads, asked, certified, every_set, twin
+from tests.optimize.choices import DEGREE, MASSES, Loads, certified, every_set, request_body, twin
 from tests.optimize.whole_turn import ALONE
 
 #: on the crank at 90 degrees, and on that at 180
@@ -29,15 +29,15 @@ def stepped(groups: list[dict[str, Any]], **more: Any) -> dict[str, Any]:
 
 def grouped_sets(machine: dict[str, Any]) -> np.ndarray:
     """Unbalances (sets, webs) of all that can be chosen, by hand."""
-    each = [0j, *(mass * np.exp(1j * np.deg2rad(angle)) for mass, angle in product(MASSES, np.arange(0, 360, 90)))]
+    values = [0j, *(mass * np.exp(1j * np.deg2rad(angle)) for mass, angle in product(MASSES, np.arange(0, 360, 90)))]
     names = [web["name"] for web in machine["webs"]]
     groups = [(group["webs"], group.get("mirror", False)) for group in machine["web_groups"]]
-    sets = np.array(list(product(each, repeat=len(groups))))
+    sets = np.array(list(product(values, repeat=len(groups))))
     u = np.zeros((len(sets), len(names)), complex)
-    for one, (webs, mirror) in zip(sets.T, groups, strict=True):
+    for number, (webs, mirror) in zip(sets.T, groups, strict=True):
         for place, name in enumerate(webs):
             own = -1.0 if name in SECOND else 1j
-            u[:, names.index(name)] = 0.12 * own * (np.conj(one) if mirror and place % 2 else one)
+            u[:, names.index(name)] = 0.12 * own * (np.conj(number) if mirror and place % 2 else number)
     return u
 
 
@@ -46,7 +46,7 @@ def value(loads: Loads, u: np.ndarray, plane: float, goal: dict[str, Any], limit
     bearings = loads.peak(u)
     if not goal["force_weight"]:
         return bearings
-    force, moment = (weight * each for weight, each in zip((0.5, 2.0), loads.frame(u, plane), strict=True))
+    force, moment = (weight * values for weight, values in zip((0.5, 2.0), loads.frame(u, plane), strict=True))
     if limit is None:
         return np.max([bearings, force, moment], axis=0)
     return np.where(force + moment <= limit * (1 + 1e-6), bearings, np.inf)
@@ -66,13 +66,13 @@ def test_groups(groups: list[dict[str, Any]], goal: dict[str, Any]) -> None:
     """Independent: one choice of nine for each group, all sets by statics."""
     named = [{"name": str(n), **group} for n, group in enumerate(groups)]
     machine = stepped(named)
-    found, proof = certified(asked(machine, **goal))
+    optimum, proof = certified(request_body(machine, **goal))
     limit = proof.goals[0].limit if "priorities" in goal else None
-    least = float(np.min(value(Loads(machine), grouped_sets(machine), found.reference_plane_m, goal, limit)))
+    least = float(np.min(value(Loads(machine), grouped_sets(machine), optimum.reference_plane_m, goal, limit)))
     assert least * (1 - 1e-9) <= proof.objective <= least * (1 + DEGREE)
     assert proof.lower_bound is not None
     assert proof.lower_bound == pytest.approx(proof.objective, rel=1e-5)
-    fitted = {one.web: one for one in found.counterweights}
+    fitted = {counterweight.web: counterweight for counterweight in optimum.counterweights}
     for group in named:
         assert len({fitted[name].mass_kg for name in group["webs"]}) == 1
     assert proof.continuous_lower_bound is not None
@@ -83,27 +83,27 @@ def test_groups(groups: list[dict[str, Any]], goal: dict[str, Any]) -> None:
 def test_part_numbers(goal: dict[str, Any]) -> None:
     """Independent: of all 2,401 sets those of one mass alone."""
     machine = twin(catalogue={"masses_kg": MASSES, "max_part_numbers": 1})
-    found, proof = certified(asked(machine, **goal))
-    assert len({one.mass_kg for one in found.counterweights if one.mass_kg > 0}) == 1
+    optimum, proof = certified(request_body(machine, **goal))
+    assert len({counterweight.mass_kg for counterweight in optimum.counterweights if counterweight.mass_kg > 0}) == 1
     sets, u = every_set(machine)
-    alike = np.array([len({mass for mass, _ in one if mass > 0}) <= 1 for one in sets])
+    alike = np.array([len({mass for mass, _ in entry if mass > 0}) <= 1 for entry in sets])
     limit = proof.goals[0].limit if "priorities" in goal else None
-    each = value(Loads(machine), u, found.reference_plane_m, goal, limit)
-    least = float(np.min(each[alike]))
+    values = value(Loads(machine), u, optimum.reference_plane_m, goal, limit)
+    least = float(np.min(values[alike]))
     assert least * (1 - 1e-9) <= proof.objective <= least * (1 + DEGREE)
     assert proof.lower_bound == pytest.approx(proof.objective, rel=1e-5)
     if "priorities" not in goal:
         # two masses are of use
-        assert float(np.min(each)) < 0.999 * least
+        assert float(np.min(values)) < 0.999 * least
 
 
 def test_groups_of_so_many_counterweights() -> None:
     """Independent: a pair or none, for a limit of three counterweights."""
     named = [{"name": "one", "webs": FIRST}, {"name": "other", "webs": SECOND}]
     machine = stepped(named, max_counterweights=3)
-    found, proof = certified(asked(machine, bearing_weight=1, **ALONE))
+    optimum, proof = certified(request_body(machine, bearing_weight=1, **ALONE))
     u = grouped_sets(machine)
     few = u[np.sum(u != 0, axis=-1) <= 3]
     least = float(np.min(Loads(machine).peak(few)))
     assert least * (1 - 1e-9) <= proof.objective <= least * (1 + DEGREE)
-    assert sum(one.mass_kg > 0 for one in found.counterweights) <= 3
+    assert sum(counterweight.mass_kg > 0 for counterweight in optimum.counterweights) <= 3

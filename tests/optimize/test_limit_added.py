@@ -24,14 +24,14 @@ LARGEST = 1500.0  # N
 CRANK, RADIUS = 1.0, 0.2  # kg m of the rotating mass, m
 
 
-def _of_one_kg(machine: Machine) -> Real:
+def _force_per_kg(machine: Machine) -> Real:
     omega = np.asarray(machine.speed_rpm) * (np.pi / 30.0)
     return stacked([web.counterweight_radius_m for web in machine.webs]) * np.square(omega)[..., None]
 
 
 @pytest.fixture(autouse=True)
 def _registered(monkeypatch: pytest.MonkeyPatch) -> None:
-    limit = MassLimit("N", lambda machine: np.full(len(machine.webs), LARGEST), _of_one_kg)
+    limit = MassLimit("N", lambda machine: np.full(len(machine.webs), LARGEST), _force_per_kg)
     monkeypatch.setitem(WEB_LIMITS, NAME, limit)  # type: ignore[misc] # not in the contract
 
 
@@ -54,8 +54,8 @@ def _solved(request: OptimizeRequest) -> tuple[Certified, list[str], dict[str, P
     )
     touched = [name for name, limit in WEB_LIMITS.items() if limit.touched(machine, best.mass_kg, best.angle_deg)[0, 0]]
     prices = mapped(shadow_prices(best.program, best.unbalance, best.optima.multipliers), lambda array: array[0])
-    each = of_limits(machine, prices)
-    return best, touched, {one.limit: one._replace(price=one.price * scene.omega_squared) for one in each}
+    bounds = of_limits(machine, prices)
+    return best, touched, {bound.limit: bound._replace(price=bound.price * scene.omega_squared) for bound in bounds}
 
 
 def test_it_is_kept_certified_touched_and_priced_by_its_name() -> None:
@@ -81,7 +81,7 @@ def test_of_two_largest_masses_the_smaller_is_the_one_that_binds() -> None:
 
 def test_where_neither_binds_neither_is_touched(monkeypatch: pytest.MonkeyPatch) -> None:
     """Analytic: the crank is balanced by CRANK / R."""
-    monkeypatch.setitem(WEB_LIMITS, NAME, MassLimit("N", lambda _: np.array([np.inf]), _of_one_kg))  # type: ignore[misc]
+    monkeypatch.setitem(WEB_LIMITS, NAME, MassLimit("N", lambda _: np.array([np.inf]), _force_per_kg))  # type: ignore[misc]
     best, touched, prices = _solved(_request(20.0))
     assert best.mass_kg[0, 0] == pytest.approx(CRANK / RADIUS, rel=1e-5)
     assert touched == []
@@ -97,7 +97,7 @@ def test_rows_of_a_sweep_know_it_at_every_speed() -> None:
     assert limits(columns.machine, rpm.shape).max_mass[:, 0] == pytest.approx(
         np.minimum(20.0, LARGEST / (RADIUS * omega**2)), rel=1e-12
     )
-    found, _ = optimal(columns, rpm.size)
-    assert found["status"].tolist() == ["optimal"] * rpm.size
+    body, _ = optimal(columns, rpm.size)
+    assert body["status"].tolist() == ["optimal"] * rpm.size
     left = np.maximum(CRANK * omega**2 - LARGEST, 0.0)
-    assert found["objective"] == pytest.approx(left, abs=1.1e-6 * np.max(CRANK * omega**2))
+    assert body["objective"] == pytest.approx(left, abs=1.1e-6 * np.max(CRANK * omega**2))

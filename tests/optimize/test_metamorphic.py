@@ -39,22 +39,22 @@ def answer(body: dict[str, Any], objective: dict[str, Any] | None = None) -> Opt
     return optimized({"machine": body, "objective": objective or {}})
 
 
-def proof(found: OptimizeAnswer) -> Certificate:
-    assert found.status == "optimal"
-    assert found.certificate is not None
-    return found.certificate
+def proof(optimum: OptimizeAnswer) -> Certificate:
+    assert optimum.status == "optimal"
+    assert optimum.certificate is not None
+    return optimum.certificate
 
 
-def agree(one: OptimizeAnswer, other: OptimizeAnswer) -> None:
+def agree(first_answer: OptimizeAnswer, second_answer: OptimizeAnswer) -> None:
     """Two answers to the same question: the values within the share, each proof good for both, the same mass."""
-    rest = proof(one).objective_without_counterweights
-    assert proof(other).objective_without_counterweights == pytest.approx(rest, rel=ROUNDING, abs=1e-9)
+    rest = proof(first_answer).objective_without_counterweights
+    assert proof(second_answer).objective_without_counterweights == pytest.approx(rest, rel=ROUNDING, abs=1e-9)
     slack = ROUNDING * rest + 1e-9
-    for first, second in ((proof(one), proof(other)), (proof(other), proof(one))):
+    for first, second in ((proof(first_answer), proof(second_answer)), (proof(second_answer), proof(first_answer))):
         assert first.lower_bound is not None
         assert first.lower_bound <= second.objective + slack
         assert first.objective <= second.objective + 1.01 * SHARE * rest + slack
-    assert one.total_mass_kg == pytest.approx(other.total_mass_kg, rel=1e-4, abs=1e-9)
+    assert first_answer.total_mass_kg == pytest.approx(second_answer.total_mass_kg, rel=1e-4, abs=1e-9)
 
 
 def with_webs(body: dict[str, Any], webs: list[dict[str, Any]]) -> dict[str, Any]:
@@ -64,16 +64,16 @@ def with_webs(body: dict[str, Any], webs: list[dict[str, Any]]) -> dict[str, Any
 def clipped(body: dict[str, Any]) -> dict[str, Any]:
     """Every max_mass_kg no larger than the budget."""
     budget = body["max_total_mass_kg"]
-    return with_webs(body, [{**each, "max_mass_kg": min(each["max_mass_kg"], budget)} for each in body["webs"]])
+    return with_webs(body, [{**plane, "max_mass_kg": min(plane["max_mass_kg"], budget)} for plane in body["webs"]])
 
 
 def halved(body: dict[str, Any]) -> dict[str, Any]:
     """Every web as two halves in the same place, each with half the limit."""
     halves = []
-    for each in body["webs"]:
+    for plane in body["webs"]:
         for part in ("left", "right"):
-            name = f"{each['name']} {part}"
-            halves.append({**each, "name": name, "max_mass_kg": 0.5 * each["max_mass_kg"]})
+            name = f"{plane['name']} {part}"
+            halves.append({**plane, "name": name, "max_mass_kg": 0.5 * plane["max_mass_kg"]})
     return with_webs(body, halves)
 
 
@@ -105,11 +105,11 @@ def test_a_budget_beside_a_limit_of_1e15_kg_is_not_proven_wrong() -> None:
         speed_rpm=9.549296585513721,
         max_total_mass_kg=1.0,
     )
-    for each in (body, clipped(body)):
-        told = proof(answer(each, {"least_mass": False}))
-        assert told.objective == pytest.approx(8.68, rel=2 * SHARE)
-        assert told.lower_bound is not None
-        assert told.lower_bound <= 8.68 * (1 + ROUNDING)
+    for payload in (body, clipped(body)):
+        certificate = proof(answer(payload, {"least_mass": False}))
+        assert certificate.objective == pytest.approx(8.68, rel=2 * SHARE)
+        assert certificate.lower_bound is not None
+        assert certificate.lower_bound <= 8.68 * (1 + ROUNDING)
 
 
 # ---- places that say the same
@@ -148,14 +148,16 @@ def test_a_web_that_may_carry_nothing_changes_nothing(seed: int, objective: dict
     idle, webs = web("idle", position, 0.0), list(body["webs"])
     webs.insert(place % (len(webs) + 1), idle)
     without, more = answer(body, objective), answer(with_webs(body, webs), objective)
-    one, other = proof(without), proof(more)
-    assert other.multipliers == one.multipliers
-    assert other.mass_lower_bound_kg == one.mass_lower_bound_kg
-    assert other.objective == pytest.approx(one.objective, rel=ROUNDING)
+    certificate, second_proof = proof(without), proof(more)
+    assert second_proof.multipliers == certificate.multipliers
+    assert second_proof.mass_lower_bound_kg == certificate.mass_lower_bound_kg
+    assert second_proof.objective == pytest.approx(certificate.objective, rel=ROUNDING)
     # where the value is the bound, the bound that is printed follows it
-    assert other.lower_bound == pytest.approx(one.lower_bound, rel=ROUNDING)
-    assert [each for each in more.counterweights if each.web != "idle"] == list(without.counterweights)
-    assert next(each.mass_kg for each in more.counterweights if each.web == "idle") == 0.0
+    assert second_proof.lower_bound == pytest.approx(certificate.lower_bound, rel=ROUNDING)
+    assert [counterweight for counterweight in more.counterweights if counterweight.web != "idle"] == list(
+        without.counterweights
+    )
+    assert next(counterweight.mass_kg for counterweight in more.counterweights if counterweight.web == "idle") == 0.0
 
 
 def test_a_web_whose_sector_points_the_wrong_way_changes_nothing_but_rounding() -> None:
@@ -186,9 +188,9 @@ def scaled(body: dict[str, Any], mass: float, length: float, speed: float) -> di
 
     def of(name: str, value: Any) -> Any:
         if isinstance(value, dict):
-            return {key: of(key, each) for key, each in value.items()}
+            return {key: of(key, value) for key, value in value.items()}
         if isinstance(value, list):
-            return [of(name, each) for each in value]
+            return [of(name, value) for value in value]
         if isinstance(value, int | float):
             for suffix, factor in factors.items():
                 if name.endswith(suffix):
@@ -204,14 +206,14 @@ def test_units_by_powers_of_two(seed: int, objective: dict[str, Any], mass: int,
     body = random_machine(seed)
     body["reference_plane_m"] = None
     mass_factor, length_factor, speed_factor = 2.0**mass, 2.0**length, 2.0**speed
-    one = answer(body, objective)
-    other = answer(scaled(body, mass_factor, length_factor, speed_factor), objective)
+    first_answer = answer(body, objective)
+    second_answer = answer(scaled(body, mass_factor, length_factor, speed_factor), objective)
     force = mass_factor * length_factor * speed_factor**2
-    assert one.total_mass_kg is not None
-    assert other.total_mass_kg == one.total_mass_kg * mass_factor
-    for first, second in zip(one.counterweights, other.counterweights, strict=True):
+    assert first_answer.total_mass_kg is not None
+    assert second_answer.total_mass_kg == first_answer.total_mass_kg * mass_factor
+    for first, second in zip(first_answer.counterweights, second_answer.counterweights, strict=True):
         assert (second.mass_kg, second.angle_deg) == (first.mass_kg * mass_factor, first.angle_deg)
-    before, after = proof(one), proof(other)
+    before, after = proof(first_answer), proof(second_answer)
     assert after.objective == before.objective * force
     assert before.lower_bound is not None
     assert after.lower_bound == before.lower_bound * force
@@ -221,7 +223,7 @@ def test_units_by_powers_of_two(seed: int, objective: dict[str, Any], mass: int,
 # ---- ceilings a little higher and lower
 
 
-def kept_by(body: dict[str, Any], share: float) -> dict[str, Any]:
+def ceilings_between(body: dict[str, Any], share: float) -> dict[str, Any]:
     """Ceilings between what the optimum reaches and what each peak can reach at best."""
     best, goal = answer(body), {"least_mass": False}
     assert best.residual.after is not None
@@ -244,11 +246,13 @@ def test_higher_ceilings_never_hurt(seed: int, step: float) -> None:
     the bound of the next higher one.
     """
     body = random_machine(seed)
-    ceilings = kept_by(body, 0.5)
-    found = [answer(body, times(ceilings, factor)) for factor in (1 - step, 1.0, 1 + step)]
-    for lower, higher in pairwise(found):
+    ceilings = ceilings_between(body, 0.5)
+    answers = [answer(body, times(ceilings, factor)) for factor in (1 - step, 1.0, 1 + step)]
+    for lower, higher in pairwise(answers):
         low, high = proof(lower), proof(higher)
-        prices = {each.response: abs(complex(each.x, each.y)) for each in low.multipliers.objective.ceilings}
+        prices = {
+            ceiling.response: abs(complex(ceiling.x, ceiling.y)) for ceiling in low.multipliers.objective.ceilings
+        }
         before = lower.residual.before
         tolerated = 1e-9 * (prices["force"] * before.force.peak_N + prices["moment"] * before.moment.peak_Nm)
         rounding = ROUNDING * low.objective_without_counterweights
@@ -268,15 +272,15 @@ def test_no_jumps_at_the_boundary_of_what_can_be_reached(seed: int, combine: str
     body = random_machine(seed)
     smallest = proof(answer(body, {"moment_weight": 0.0, "least_mass": False})).objective
     factors = (1 - 1e-3, 1 - 1e-9, 1.0, 1 + 1e-9, 1 + 1e-3)
-    found = [answer(body, {"combine": combine, "force_ceiling_N": smallest * factor}) for factor in factors]
-    statuses = [each.status for each in found]
+    answers = [answer(body, {"combine": combine, "force_ceiling_N": smallest * factor}) for factor in factors]
+    statuses = [optimum.status for optimum in answers]
     assert "inaccurate" not in statuses
     assert statuses[-1] == "optimal"
     if smallest > 1e-6:
         assert statuses[0] == "infeasible"
     # once the ceilings can be kept, higher ones can
     assert statuses == sorted(statuses, key=["infeasible", "optimal"].index)
-    values = [proof(each).objective for each in found if each.status == "optimal"]
-    rest = proof(found[-1]).objective_without_counterweights
+    values = [proof(optimum).objective for optimum in answers if optimum.status == "optimal"]
+    rest = proof(answers[-1]).objective_without_counterweights
     for lower, higher in pairwise(values):
         assert higher <= lower + 2 * SHARE * rest

@@ -33,8 +33,8 @@ def twin(least: float, most: float = 40.0, **more: Any) -> dict[str, Any]:
 
 def heavy_enough(answer: OptimizeAnswer, body: dict[str, Any]) -> bool:
     return all(
-        one.mass_kg == 0 or one.mass_kg >= web["min_fitted_mass_kg"]
-        for one, web in zip(answer.counterweights, body["machine"]["webs"], strict=True)
+        counterweight.mass_kg == 0 or counterweight.mass_kg >= web["min_fitted_mass_kg"]
+        for counterweight, web in zip(answer.counterweights, body["machine"]["webs"], strict=True)
         if web.get("min_fitted_mass_kg")
     )
 
@@ -43,24 +43,28 @@ def test_a_least_that_is_kept_anyway_changes_nothing() -> None:
     plain, least = twin(0.1), twin(0.1)
     for web in plain["machine"]["webs"]:
         del web["min_fitted_mass_kg"]
-    found, free = optimized(least), optimized(plain)
-    assert [one.mass_kg for one in found.counterweights] == [one.mass_kg for one in free.counterweights]
-    assert found.certificate is not None
-    assert found.certificate.mass_lower_bound_kg is not None
-    assert (found.certificate.nodes, found.certificate.continuous_lower_bound) == (None, None)
+    answer, free = optimized(least), optimized(plain)
+    assert [counterweight.mass_kg for counterweight in answer.counterweights] == [
+        counterweight.mass_kg for counterweight in free.counterweights
+    ]
+    assert answer.certificate is not None
+    assert answer.certificate.mass_lower_bound_kg is not None
+    assert (answer.certificate.nodes, answer.certificate.continuous_lower_bound) == (None, None)
 
 
 def test_two_that_are_each_too_heavy_lean_apart() -> None:
     # analytic: two of m at +-a from 180 degrees pull with 2 m R cos a, and their tangential parts are a couple;
     # without a weight of the moment they cancel (12 + 50) 0.14 kg m exactly, though each alone is too heavy
     body = twin(30.0, objective={"moment_weight": 0}, accuracy={"relative_gap": 1e-6})
-    found = optimized(body)
-    assert found.status == "optimal"
-    assert heavy_enough(found, body)
-    assert found.certificate is not None
+    answer = optimized(body)
+    assert answer.status == "optimal"
+    assert heavy_enough(answer, body)
+    assert answer.certificate is not None
     # what the counter-rotating 50 kg leave
-    assert found.certificate.objective == pytest.approx(50 * 0.14 * OMEGA**2, rel=2e-6)
-    assert sorted(one.mass_kg for one in found.counterweights) == pytest.approx([30.0, 30.0], rel=1e-3)
+    assert answer.certificate.objective == pytest.approx(50 * 0.14 * OMEGA**2, rel=2e-6)
+    assert sorted(counterweight.mass_kg for counterweight in answer.counterweights) == pytest.approx(
+        [30.0, 30.0], rel=1e-3
+    )
 
 
 def test_one_between_nothing_and_the_least() -> None:
@@ -71,14 +75,14 @@ def test_one_between_nothing_and_the_least() -> None:
         web = {"name": "a", "position_m": 0, "counterweight_radius_m": 0.1, "max_mass_kg": 40,
                "min_fitted_mass_kg": 10 * least}  # fmt: skip
         machine = {"kind": "reciprocating", "speed_rpm": 500, "throws": [throw], "webs": [web]}
-        found = optimized({"machine": machine, "accuracy": {"relative_gap": 1e-6}})
-        assert found.status == "optimal"
-        assert found.certificate is not None
-        assert found.certificate.objective == pytest.approx(left * OMEGA**2, rel=2e-6)
-        (one,) = found.counterweights
-        assert one.mass_kg == pytest.approx(10 * least if left < 1 else 0, rel=1e-6)
+        answer = optimized({"machine": machine, "accuracy": {"relative_gap": 1e-6}})
+        assert answer.status == "optimal"
+        assert answer.certificate is not None
+        assert answer.certificate.objective == pytest.approx(left * OMEGA**2, rel=2e-6)
+        (counterweight,) = answer.counterweights
+        assert counterweight.mass_kg == pytest.approx(10 * least if left < 1 else 0, rel=1e-6)
         # at its optimum the objective is flat in the angle: the asked gap leaves a twentieth of a degree open
-        assert one.angle_deg == pytest.approx(210.0 if left < 1 else 0, abs=2e-3)
+        assert counterweight.angle_deg == pytest.approx(210.0 if left < 1 else 0, abs=2e-3)
 
 
 def random_machine(seed: int, webs: int) -> dict[str, Any]:
@@ -145,10 +149,10 @@ def best_by_hand(body: dict[str, Any], seed: int) -> float:
         bounds = [*zip(lightest, [web["max_mass_kg"] for web in webs], strict=True), *edges]
         for _ in range(4):
             start = [random.uniform(low, high) if high - low < 30 else random.uniform(-4, 4) for low, high in bounds]
-            found = minimize(
+            minimum = minimize(
                 lambda x, fitted=fitted: by_hand(body, unbalance(x, fitted)) / 1e4, start, bounds=bounds, method="SLSQP"
             )
-            best = min(best, by_hand(body, unbalance(np.clip(found.x, *np.array(bounds).T), fitted)))
+            best = min(best, by_hand(body, unbalance(np.clip(minimum.x, *np.array(bounds).T), fitted)))
     return best
 
 
@@ -156,17 +160,17 @@ def best_by_hand(body: dict[str, Any], seed: int) -> float:
 @given(st.integers(0, 2**31 - 1), st.integers(1, 3))
 def test_nothing_that_is_heavy_enough_is_better(seed: int, webs: int) -> None:
     body = {**random_machine(seed, webs), "accuracy": {"relative_gap": 1e-4, "time_limit_s": 30}}
-    found = optimized(body)
-    proof = found.certificate
+    answer = optimized(body)
+    proof = answer.certificate
     assert proof is not None
     assert proof.lower_bound is not None
-    assert heavy_enough(found, body)
-    u = np.array([complex(one.x_kg_m, one.y_kg_m) for one in found.counterweights])
+    assert heavy_enough(answer, body)
+    u = np.array([complex(counterweight.x_kg_m, counterweight.y_kg_m) for counterweight in answer.counterweights])
     assert proof.objective == pytest.approx(by_hand(body, u), rel=1e-9)
     best = best_by_hand(body, seed)
     assert proof.lower_bound <= best * (1 + 1e-9)
     # optimal to the asked gap, whatever the local searches have found
-    assert found.status == "optimal"
+    assert answer.status == "optimal"
     assert proof.objective <= best + 1.01e-4 * (proof.yardstick or 0.0)
 
 
@@ -175,33 +179,33 @@ def test_the_machine_of_the_contract_with_a_least(least: float) -> None:
     body = bodies()["2d12"]
     for web in body["machine"]["webs"]:
         web["min_fitted_mass_kg"] = least
-    found = optimized(body)
-    assert found.status == "optimal"
-    assert heavy_enough(found, body)
-    proof = found.certificate
+    answer = optimized(body)
+    assert answer.status == "optimal"
+    assert heavy_enough(answer, body)
+    proof = answer.certificate
     assert proof is not None
     assert proof.continuous_lower_bound is not None
     assert proof.nodes
     # the continuous optimum is never beaten
     assert proof.continuous_lower_bound <= proof.objective
-    assert verdict(body, found.model_dump(mode="json")) == "not covered"
+    assert verdict(body, answer.model_dump(mode="json")) == "not covered"
 
 
 def test_a_budget_and_ceilings_hold() -> None:
     body = twin(30.0)
     body["machine"]["max_total_mass_kg"] = 55.0
-    found = optimized(body)
-    assert found.status == "optimal"
+    answer = optimized(body)
+    assert answer.status == "optimal"
     # one alone, for two are heavier than the budget
-    assert sorted(one.mass_kg > 0 for one in found.counterweights) == [False, True]
-    assert found.certificate is not None
+    assert sorted(counterweight.mass_kg > 0 for counterweight in answer.counterweights) == [False, True]
+    assert answer.certificate is not None
     free = optimized(twin(30.0))
     assert free.residual.after is not None
     assert free.certificate is not None
     tight = twin(30.0, objective={"moment_ceiling_Nm": 0.5 * free.residual.after.moment.peak_Nm})
-    found = optimized(tight)
-    assert found.residual.after is not None
-    assert found.residual.after.moment.peak_Nm <= 0.5 * free.residual.after.moment.peak_Nm * (1 + 1e-9)
+    optimum = optimized(tight)
+    assert optimum.residual.after is not None
+    assert optimum.residual.after.moment.peak_Nm <= 0.5 * free.residual.after.moment.peak_Nm * (1 + 1e-9)
 
 
 def test_ceilings_that_nothing_heavy_enough_keeps() -> None:
@@ -214,36 +218,36 @@ def test_ceilings_that_nothing_heavy_enough_keeps() -> None:
     }
     assert optimized(copy.deepcopy(body)).status == "optimal"
     web["min_fitted_mass_kg"] = 15.0
-    found = optimized(body)
-    assert found.status == "infeasible"
-    assert found.infeasibility is not None
-    assert "branch and bound" in found.status_reason
+    answer = optimized(body)
+    assert answer.status == "infeasible"
+    assert answer.infeasibility is not None
+    assert "branch and bound" in answer.status_reason
 
 
 def test_of_a_catalogue_what_is_too_light_is_left_out() -> None:
     body = twin(20.0)
     body["machine"]["catalogue"] = {"masses_kg": [5, 10, 21.7, 25], "angle_step_deg": 45}
-    found = optimized(body)
-    assert {one.mass_kg for one in found.counterweights} <= {0.0, 21.7, 25.0}
+    answer = optimized(body)
+    assert {counterweight.mass_kg for counterweight in answer.counterweights} <= {0.0, 21.7, 25.0}
 
 
 def test_the_checker_tells_a_weight_that_is_too_light() -> None:
     body = twin(30.0)
     answer = optimized(body).model_dump(mode="json")
     body["machine"]["webs"][0]["min_fitted_mass_kg"] = 39.0
-    assert any("min_fitted_mass" in each for each in broken(body, answer))
+    assert any("min_fitted_mass" in claim for claim in broken(body, answer))
 
 
 def test_the_time_ends_a_search() -> None:
     body = {**random_machine(7, 3), "accuracy": {"relative_gap": 1e-12, "time_limit_s": 1e-3}}
     for web in body["machine"]["webs"]:
         web["min_fitted_mass_kg"] = 0.9 * web["max_mass_kg"]
-    found = optimized(body)
-    assert found.status in ("optimal", "inaccurate")
-    assert found.certificate is not None
-    assert found.certificate.lower_bound is not None
-    if found.status == "inaccurate":
-        assert "time_limit_s" in found.status_reason
+    answer = optimized(body)
+    assert answer.status in ("optimal", "inaccurate")
+    assert answer.certificate is not None
+    assert answer.certificate.lower_bound is not None
+    if answer.status == "inaccurate":
+        assert "time_limit_s" in answer.status_reason
 
 
 @pytest.mark.parametrize(
@@ -272,10 +276,10 @@ def test_what_it_does_not_go_with_is_said(change: dict[str, Any], path: tuple[st
 
 
 def _paths(error: ValidationError) -> set[tuple[str | int, ...]]:
-    found: set[tuple[str | int, ...]] = set()
-    for one in error.errors():
-        context = one.get("ctx", {})
+    names: set[tuple[str | int, ...]] = set()
+    for single_error in error.errors():
+        context = single_error.get("ctx", {})
         rest = [tuple(problem.path) for problem in context.get("problems", [])] or [()]
-        place = tuple(part for part in one["loc"] if part != "reciprocating")
-        found |= {(*place, *end) for end in rest}
-    return found
+        place = tuple(part for part in single_error["loc"] if part != "reciprocating")
+        names |= {(*place, *end) for end in rest}
+    return names

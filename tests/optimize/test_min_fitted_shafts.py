@@ -24,14 +24,17 @@ SHARP = {"relative_gap": 1e-6, "time_limit_s": 30}
 
 def answer(machine: dict[str, Any], goal: dict[str, Any], **more: Any) -> OptimizeAnswer:
     """The answer, no claim of which the independent checker breaks."""
-    found = sound_answer({"machine": machine, "objective": goal, **more})
-    for place, one in zip(every_place(machine), every_weight(found), strict=True):
-        assert one.mass_kg == 0 or one.mass_kg >= place.get("min_fitted_mass_kg", 0.0)
-    return found
+    optimum = sound_answer({"machine": machine, "objective": goal, **more})
+    for place, counterweight in zip(every_place(machine), every_weight(optimum), strict=True):
+        assert counterweight.mass_kg == 0 or counterweight.mass_kg >= place.get("min_fitted_mass_kg", 0.0)
+    return optimum
 
 
-def every_weight(found: OptimizeAnswer) -> list[Any]:
-    return [*found.counterweights, *(one for of_shaft in found.balance_shafts for one in of_shaft.counterweights)]
+def every_weight(optimum: OptimizeAnswer) -> list[Any]:
+    return [
+        *optimum.counterweights,
+        *(counterweight for of_shaft in optimum.balance_shafts for counterweight in of_shaft.counterweights),
+    ]
 
 
 @pytest.mark.parametrize(
@@ -42,21 +45,22 @@ def every_weight(found: OptimizeAnswer) -> list[Any]:
 )
 def test_a_lanchester_shaft_cancels_what_its_least_leaves(least: float, left: float) -> None:
     machine = single([shaft("back", -1, radius=0.05, max_mass=200.0, min_fitted_mass_kg=least)])
-    found = answer(machine, FORCE, accuracy=SHARP)
-    assert found.status == "optimal"
-    assert found.certificate.objective == pytest.approx(left * WHOLE, abs=3e-6 * WHOLE)
-    assert found.certificate.lower_bound == pytest.approx(left * WHOLE, abs=3e-6 * WHOLE)
-    assert found.balance_shafts_mass_kg == pytest.approx(max(least, 10.0) if left < 0.5 else 0.0, rel=1e-4)
+    optimum = answer(machine, FORCE, accuracy=SHARP)
+    assert optimum.status == "optimal"
+    assert optimum.certificate.objective == pytest.approx(left * WHOLE, abs=3e-6 * WHOLE)
+    assert optimum.certificate.lower_bound == pytest.approx(left * WHOLE, abs=3e-6 * WHOLE)
+    assert optimum.balance_shafts_mass_kg == pytest.approx(max(least, 10.0) if left < 0.5 else 0.0, rel=1e-4)
 
 
 def test_two_on_a_shaft_lean_apart() -> None:
     # analytic: two of 6 kg at +-a from 270 degrees pull as 10 kg with 12 cos a, each alone too light
     places = [web(name, 0.0, 200.0, radius=0.05, min_fitted_mass_kg=6.0) for name in ("p", "q")]
     machine = single([{"name": "back", "speed_ratio": -1, "webs": places}])
-    found = answer(machine, FORCE, accuracy=SHARP)
-    assert found.certificate.objective == pytest.approx(0.0, abs=3e-6 * WHOLE)
+    optimum = answer(machine, FORCE, accuracy=SHARP)
+    assert optimum.certificate.objective == pytest.approx(0.0, abs=3e-6 * WHOLE)
     pull = sum(
-        cmath.rect(one.mass_kg, math.radians(one.angle_deg - 270.0)) for one in found.balance_shafts[0].counterweights
+        cmath.rect(counterweight.mass_kg, math.radians(counterweight.angle_deg - 270.0))
+        for counterweight in optimum.balance_shafts[0].counterweights
     )
     assert pull == pytest.approx(10.0, rel=1e-5)
 
@@ -68,7 +72,7 @@ def bracket(machine: dict[str, Any], pieces: int) -> tuple[float, float]:
     """
     places, order = every_place(machine), first_order(machine)
     mass = cp.Variable(len(places), complex=True)
-    sums = [sum(cp.abs(each) for each in both) for both in order.terms(mass)]
+    sums = [sum(cp.abs(value) for value in both) for both in order.terms(mass)]
     goal = sums[0] + sums[1] / order.span
     edge = [cp.Parameter(complex=True) for _ in places]
     floor = [cp.Parameter() for _ in places]
@@ -106,10 +110,10 @@ def two_throws(least: float, on_shaft: float) -> dict[str, Any]:
 def test_no_choice_is_better_than_the_bound(least: float, on_shaft: float) -> None:
     # independent: programs of cvxpy in every piece of the circles of least masses
     machine = two_throws(least, on_shaft)
-    found = answer(machine, {}, accuracy={"relative_gap": 1e-5, "time_limit_s": 30})
+    optimum = answer(machine, {}, accuracy={"relative_gap": 1e-5, "time_limit_s": 30})
     low, high = bracket(machine, 20)
-    proof = found.certificate
-    assert found.status == "optimal"
+    proof = optimum.certificate
+    assert optimum.status == "optimal"
     assert proof.lower_bound <= high * (1 + 1e-6)
     assert low * (1 - 1e-6) <= proof.objective <= high * (1 + 2e-5)
     assert high - low <= 0.03 * high
@@ -154,26 +158,26 @@ TWICE = in_line_four(
     ),
 )
 def test_no_claim_is_broken(machine: dict[str, Any], goal: dict[str, Any], more: dict[str, Any]) -> None:
-    found = answer(machine, goal, accuracy={"relative_gap": 1e-2, "time_limit_s": 0.5}, **more)
-    assert found.status in ("optimal", "inaccurate")
+    optimum = answer(machine, goal, accuracy={"relative_gap": 1e-2, "time_limit_s": 0.5}, **more)
+    assert optimum.status in ("optimal", "inaccurate")
 
 
 @pytest.mark.parametrize("rotation", part(2, ["ccw", "cw"]))
 def test_forces_are_masses_times_accelerations(rotation: str) -> None:
     # independent: the force from definitions at every third degree, of all orders
-    found = answer(WITHIN | {"rotation": rotation}, {"orders": "all", "moment_weight": 0})
-    turn = [abs(at(WITHIN | {"rotation": rotation}, found.model_dump(), theta)[0]) for theta in range(0, 360, 3)]
-    assert max(turn) == pytest.approx(found.certificate.objective, rel=2e-3)
+    optimum = answer(WITHIN | {"rotation": rotation}, {"orders": "all", "moment_weight": 0})
+    turn = [abs(at(WITHIN | {"rotation": rotation}, optimum.model_dump(), theta)[0]) for theta in range(0, 360, 3)]
+    assert max(turn) == pytest.approx(optimum.certificate.objective, rel=2e-3)
 
 
 def test_equal_castings_on_the_crankshaft_stand_beside_it() -> None:
     machine = single([shaft("back", -1, radius=0.05, max_mass=60.0, min_fitted_mass_kg=12.0)], webs=2)
     machine["webs"] = [web(name, z, 20.0, throw=0) for name, z in (("a", -0.1), ("b", 0.1))]
     machine["web_groups"] = [{"name": "pair", "webs": ["a", "b"]}]
-    found = answer(machine, FORCE, accuracy=SHARP)
+    optimum = answer(machine, FORCE, accuracy=SHARP)
     # analytic: 12 kg where 10 are called for leave a tenth of what turns backwards
-    assert found.certificate.objective == pytest.approx(0.1 * WHOLE, rel=1e-5)
-    assert found.counterweights[0].mass_kg == found.counterweights[1].mass_kg == pytest.approx(2.5, rel=1e-4)
+    assert optimum.certificate.objective == pytest.approx(0.1 * WHOLE, rel=1e-5)
+    assert optimum.counterweights[0].mass_kg == optimum.counterweights[1].mass_kg == pytest.approx(2.5, rel=1e-4)
 
 
 @pytest.mark.parametrize(
@@ -205,5 +209,5 @@ def test_ceilings_that_a_least_mass_breaks_are_named() -> None:
     machine = single([shaft("back", -1, radius=0.05, max_mass=200.0, min_fitted_mass_kg=11.0)])
     for share, status in ((0.051, "optimal"), (0.049, "infeasible")):
         goal = {"moment_weight": 0, "force_ceiling_x_N": share * WHOLE, "force_ceiling_y_N": share * WHOLE}
-        found = optimize(OptimizeRequest.model_validate({"machine": machine, "objective": goal}))
-        assert found.status == status, found.status_reason
+        optimum = optimize(OptimizeRequest.model_validate({"machine": machine, "objective": goal}))
+        assert optimum.status == status, optimum.status_reason

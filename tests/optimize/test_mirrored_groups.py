@@ -21,23 +21,23 @@ CASES = pytest.mark.parametrize("mirror", [False, True])
 
 def grouped(groups: list[list[str]], mirror: bool, max_mass_kg: float = 30.0, **more: Any) -> dict[str, Any]:
     """Of the machine of the other tests; rods make it one for the whole turn too."""
-    asked = body(groups, max_mass_kg, **more)
-    for throw in asked["machine"]["throws"]:
+    request = body(groups, max_mass_kg, **more)
+    for throw in request["machine"]["throws"]:
         throw["rows"][0]["connecting_rod"] = {"length_m": 0.4}
-    asked["machine"]["bearings"] = [{"name": "A", "position_m": -0.5}, {"name": "B", "position_m": 0.5}]
-    for group in asked["machine"]["web_groups"]:
+    request["machine"]["bearings"] = [{"name": "A", "position_m": -0.5}, {"name": "B", "position_m": 0.5}]
+    for group in request["machine"]["web_groups"]:
         group["mirror"] = mirror
-    return asked
+    return request
 
 
 def alike(answer: Any, groups: list[list[str]], mirror: bool) -> None:
     """Analytic: one weight in every group, each at the angle of the first or on the other side of its crank."""
     place = dict(zip(NAMES, phasors(answer), strict=True))
-    mass = {one.web: one.mass_kg for one in answer.counterweights}
+    mass = {counterweight.web: counterweight.mass_kg for counterweight in answer.counterweights}
     for group in groups:
         assert len({mass[name] for name in group}) == 1
-        found = [np.conj(place[name]) if mirror and n % 2 else place[name] for n, name in enumerate(group)]
-        assert np.allclose(found, found[0], rtol=0, atol=1e-12 * (1 + abs(found[0])))
+        nps = [np.conj(place[name]) if mirror and n % 2 else place[name] for n, name in enumerate(group)]
+        assert np.allclose(nps, nps[0], rtol=0, atol=1e-12 * (1 + abs(nps[0])))
 
 
 def certified(answer: OptimizeAnswer, mass_gap: float = 1e-4) -> None:
@@ -50,75 +50,75 @@ def certified(answer: OptimizeAnswer, mass_gap: float = 1e-4) -> None:
 
 def test_a_mirrored_pair_on_every_throw_is_a_search_over_its_components() -> None:
     """Independent: the same by a search over the two components of the one casting on each of all cranks."""
-    asked = grouped([NAMES], True, max_mass_kg=12.0)
-    found = optimized(asked)
-    certified(found)
-    alike(found, [NAMES], True)
+    query = grouped([NAMES], True, max_mass_kg=12.0)
+    answer = optimized(query)
+    certified(answer)
+    alike(answer, [NAMES], True)
     turn = np.exp(1j * np.radians(np.repeat(ANGLES, 2))) * RADIUS
 
     def value(p: np.ndarray) -> float:
         # beyond the limit nothing counts
         w = (p[0] + 1j * p[1]) * min(1.0, 12.0 / max(float(np.hypot(*p)), 1e-300))
-        return objective(asked, np.where(np.arange(6) % 2, np.conj(w), w) * turn)
+        return objective(query, np.where(np.arange(6) % 2, np.conj(w), w) * turn)
 
     best = min(
         minimize(value, start, method="Nelder-Mead", options={"xatol": 1e-10, "fatol": 1e-10, "maxiter": 4000}).fun
         for start in ((-5.0, 1.0), (-5.0, -6.0), (-2.0, 9.0), (1.0, 10.0))
     )
-    assert found.certificate is not None
-    assert found.certificate.objective == pytest.approx(best, rel=1e-5)
-    assert found.certificate.lower_bound is not None
-    assert found.certificate.lower_bound <= best * (1 + 1e-9)
+    assert answer.certificate is not None
+    assert answer.certificate.objective == pytest.approx(best, rel=1e-5)
+    assert answer.certificate.lower_bound is not None
+    assert answer.certificate.lower_bound <= best * (1 + 1e-9)
 
 
 @pytest.mark.parametrize("goal", [{}, {"combine": "max"}, {"direction_weights": {"x": 2, "y": 1}}])
 def test_mirrored_pairs_are_no_better_than_webs_by_themselves(goal: dict[str, Any]) -> None:
-    found, free = optimized(grouped(PAIRS, True, objective=goal)), optimized(grouped([], False, objective=goal))
-    certified(found)
-    alike(found, PAIRS, True)
-    assert found.certificate is not None
+    answer, free = optimized(grouped(PAIRS, True, objective=goal)), optimized(grouped([], False, objective=goal))
+    certified(answer)
+    alike(answer, PAIRS, True)
+    assert answer.certificate is not None
     assert free.certificate is not None
-    assert found.certificate.objective >= free.certificate.lower_bound * (1 - 1e-12)
-    assert found.total_mass_kg is not None
+    assert answer.certificate.objective >= free.certificate.lower_bound * (1 - 1e-12)
+    assert answer.total_mass_kg is not None
     assert free.total_mass_kg is not None
     # both webs of a throw carry what together points along its crank, which costs mass
-    assert found.total_mass_kg > free.total_mass_kg
+    assert answer.total_mass_kg > free.total_mass_kg
 
 
 def test_pairs_in_one_plane_are_the_same_mirrored_or_not() -> None:
     """Analytic: cranks, rows and optimum lie in one plane, which is that of the mirror."""
-    found = []
+    answers = []
     for mirror in (False, True):
-        asked = grouped([["0a", "2a"], ["0b", "2b"]], mirror)
-        for throw, angle in zip(asked["machine"]["throws"], (90.0, 270.0, 90.0), strict=True):
+        query = grouped([["0a", "2a"], ["0b", "2b"]], mirror)
+        for throw, angle in zip(query["machine"]["throws"], (90.0, 270.0, 90.0), strict=True):
             throw["crank_angle_deg"] = angle
-        found.append(optimized(asked))
-    assert found[0].total_mass_kg == pytest.approx(found[1].total_mass_kg, rel=1e-4)
-    assert found[0].certificate is not None
-    assert found[1].certificate is not None
-    assert found[0].certificate.objective == pytest.approx(found[1].certificate.objective, rel=1e-6)
+        answers.append(optimized(query))
+    assert answers[0].total_mass_kg == pytest.approx(answers[1].total_mass_kg, rel=1e-4)
+    assert answers[0].certificate is not None
+    assert answers[1].certificate is not None
+    assert answers[0].certificate.objective == pytest.approx(answers[1].certificate.objective, rel=1e-6)
 
 
 def test_sectors_are_mirrored_too() -> None:
-    asked = grouped(PAIRS, True)
-    for n, web in enumerate(asked["machine"]["webs"]):
+    query = grouped(PAIRS, True)
+    for n, web in enumerate(query["machine"]["webs"]):
         side = 1 if n % 2 == 0 else -1
         web["sector"] = {"centre_deg": ANGLES[n // 2] + side * 150.0, "half_angle_deg": 10.0}
-    found = optimized(asked)
-    certified(found)
-    alike(found, PAIRS, True)
-    off = [one.angle_from_crank_deg or 0.0 for one in found.counterweights]
+    answer = optimized(query)
+    certified(answer)
+    alike(answer, PAIRS, True)
+    off = [counterweight.angle_from_crank_deg or 0.0 for counterweight in answer.counterweights]
     assert all(140.0 - 1e-9 <= (angle if n % 2 == 0 else 360.0 - angle) <= 160.0 + 1e-9 for n, angle in enumerate(off))
-    asked["machine"]["webs"][1]["sector"]["centre_deg"] = 150.0
+    query["machine"]["webs"][1]["sector"]["centre_deg"] = 150.0
     with pytest.raises(OutOfRange) as refusal:
-        optimized(asked)
+        optimized(query)
     assert refusal.value.problems[0].path == ("machine", "web_groups", 0, "webs", 1)
 
 
 def test_a_pair_without_a_limit_is_refused() -> None:
-    asked = grouped(PAIRS, True)
-    asked["machine"]["webs"][0]["max_mass_kg"] = None
-    at, words = refused(asked)
+    query = grouped(PAIRS, True)
+    query["machine"]["webs"][0]["max_mass_kg"] = None
+    at, words = refused(query)
     assert at == ("web_groups", 0, "webs", 0)
     assert "max_mass_kg" in words
 
@@ -127,10 +127,10 @@ def test_ceilings_of_mirrored_pairs() -> None:
     best = optimized(grouped([NAMES], True, max_mass_kg=12.0))
     assert best.residual.after is not None
     low = 0.98 * best.residual.after.force.peak_N
-    kept = optimized(grouped([NAMES], True, max_mass_kg=12.0, objective={"force_ceiling_N": low}))
-    certified(kept)
-    assert kept.residual.after is not None
-    assert kept.residual.after.force.peak_N <= low * (1 + 1e-9)
+    answer = optimized(grouped([NAMES], True, max_mass_kg=12.0, objective={"force_ceiling_N": low}))
+    certified(answer)
+    assert answer.residual.after is not None
+    assert answer.residual.after.force.peak_N <= low * (1 + 1e-9)
     none = optimized(grouped([NAMES], True, max_mass_kg=12.0, objective={"force_ceiling_N": 0.5 * low}))
     assert none.status == "infeasible"
     assert none.infeasibility is not None
@@ -161,31 +161,31 @@ def test_over_the_turn_and_in_the_worst_case(mirror: bool, more: dict[str, Any])
     """Independent: webs by themselves are proven to do no worse."""
     # however busy the machine, and whatever is compiled first
     more = {"accuracy": {"time_limit_s": 30}, **more}
-    found, free = optimized(grouped(PAIRS, mirror, **more)), optimized(grouped([], False, **more))
-    certified(found)
-    alike(found, PAIRS, mirror)
-    assert found.certificate is not None
+    answer, free = optimized(grouped(PAIRS, mirror, **more)), optimized(grouped([], False, **more))
+    certified(answer)
+    alike(answer, PAIRS, mirror)
+    assert answer.certificate is not None
     assert free.certificate is not None
     assert free.certificate.lower_bound is not None
-    assert found.certificate.objective >= free.certificate.lower_bound * (1 - 1e-9)
-    assert found.shadow_prices == ()
+    assert answer.certificate.objective >= free.certificate.lower_bound * (1 - 1e-9)
+    assert answer.shadow_prices == ()
 
 
 @CASES
 @pytest.mark.parametrize("budget", [None, 30.0])
 def test_plates_of_a_group_are_cut_alike(mirror: bool, budget: float | None) -> None:
-    asked = grouped(PAIRS, mirror)
-    asked["machine"]["max_total_mass_kg"] = budget
-    for web in asked["machine"]["webs"]:
+    query = grouped(PAIRS, mirror)
+    query["machine"]["max_total_mass_kg"] = budget
+    for web in query["machine"]["webs"]:
         del web["counterweight_radius_m"], web["max_mass_kg"]
         web["envelope"] = {"shape": "segment", "outer_radius_m": 0.25, "inner_radius_m": 0.06, "thickness_m": 0.03}
-    found = optimized(asked)
-    certified(found)
-    alike(found, PAIRS, mirror)
-    for a, b in zip(found.counterweights[::2], found.counterweights[1::2], strict=True):
+    answer = optimized(query)
+    certified(answer)
+    alike(answer, PAIRS, mirror)
+    for a, b in zip(answer.counterweights[::2], answer.counterweights[1::2], strict=True):
         assert a.shape == b.shape
         assert a.radius_m == b.radius_m
-    assert (found.total_mass_kg or 0.0) <= (budget or 1e3) * (1 + 1e-9)
+    assert (answer.total_mass_kg or 0.0) <= (budget or 1e3) * (1 + 1e-9)
 
 
 @CASES
@@ -197,29 +197,29 @@ def test_fronts(mirror: bool) -> None:
         alike(point, [NAMES], mirror)
         assert point.certificate.mass_relative_gap is not None
         assert point.certificate.mass_relative_gap <= 1e-4
-    asked = grouped(PAIRS, mirror, points=2, responses=["bearings", "mass"])
-    trade = pareto(ParetoRequest.model_validate(asked))
+    query = grouped(PAIRS, mirror, points=2, responses=["bearings", "mass"])
+    trade = pareto(ParetoRequest.model_validate(query))
     assert trade.status == "optimal"
-    for each in trade.trades[0].points:
-        alike(each, PAIRS, mirror)
+    for position in trade.trades[0].points:
+        alike(position, PAIRS, mirror)
 
 
 def test_beside_balance_shafts() -> None:
-    asked = grouped(PAIRS, True)
+    query = grouped(PAIRS, True)
     web = {"name": "s", "position_m": 0.0, "counterweight_radius_m": 0.05, "max_mass_kg": 20}
-    asked["machine"]["balance_shafts"] = [{"name": "back", "speed_ratio": -1, "webs": [web]}]
-    found = optimized(asked)
-    certified(found)
-    alike(found, PAIRS, True)
-    assert found.balance_shafts[0].total_mass_kg > 0
+    query["machine"]["balance_shafts"] = [{"name": "back", "speed_ratio": -1, "webs": [web]}]
+    answer = optimized(query)
+    certified(answer)
+    alike(answer, PAIRS, True)
+    assert answer.balance_shafts[0].total_mass_kg > 0
 
 
 def test_the_checker_finds_a_pair_that_is_not_mirrored() -> None:
-    asked = grouped(PAIRS, True)
-    answer = json.loads(optimized(asked).model_dump_json())
-    assert not broken(asked, answer)
+    query = grouped(PAIRS, True)
+    answer = json.loads(optimized(query).model_dump_json())
+    assert not broken(query, answer)
     answer["counterweights"][1]["angle_deg"] += 0.5
-    assert any("web_groups" in each for each in broken(asked, answer))
-    asked["machine"]["web_groups"][0]["mirror"] = False
+    assert any("web_groups" in claim for claim in broken(query, answer))
+    query["machine"]["web_groups"][0]["mirror"] = False
     answer["counterweights"][1]["angle_deg"] -= 0.5
-    assert any("web_groups" in each for each in broken(asked, answer))
+    assert any("web_groups" in claim for claim in broken(query, answer))

@@ -8,7 +8,7 @@ import pytest
 from optimizer.optimize import optimize
 from optimizer.studies.sweep import run_chunk
 from tests.hard.cases.case import Body, machine, row, throw
-from tests.optimize.whole_turn import ALONE, asked, inline_six
+from tests.optimize.whole_turn import ALONE, inline_six, request_of
 from tests.studies.sweep.single import sweep
 from tests.verification.checking import optimized
 
@@ -30,15 +30,19 @@ def crank(webs: int, rng: np.random.Generator, **limits: Any) -> Body:
 @pytest.mark.parametrize("largest", [3.0, 1000.0])
 def test_masses_are_something_or_nothing(seed: int, largest: float) -> None:
     """With ample limits no lightest optimum needs all of seven webs, of which an interior point leaves none empty."""
-    found = optimized(crank(7, np.random.default_rng(seed), max_mass_kg=largest))
-    assert found.status == "optimal"
-    mass = np.array([one.mass_kg for one in found.counterweights])
+    answer = optimized(crank(7, np.random.default_rng(seed), max_mass_kg=largest))
+    assert answer.status == "optimal"
+    mass = np.array([counterweight.mass_kg for counterweight in answer.counterweights])
     fitted = mass > 0
     assert np.all(mass[fitted] > 1e-3 * np.max(mass))
     assert np.all((mass == largest) | (mass < largest * (1 - 1e-4)))
-    assert [one.angle_deg for one in found.counterweights if one.mass_kg == 0] == [0.0] * int(np.sum(~fitted))
+    assert [counterweight.angle_deg for counterweight in answer.counterweights if counterweight.mass_kg == 0] == [
+        0.0
+    ] * int(np.sum(~fitted))
     assert largest < 10.0 or not np.all(fitted)
-    assert [one.active_limits for one in found.counterweights] == [("max_mass",) if m == largest else () for m in mass]
+    assert [counterweight.active_limits for counterweight in answer.counterweights] == [
+        ("max_mass",) if m == largest else () for m in mass
+    ]
 
 
 @pytest.mark.parametrize("seed", range(4))
@@ -46,9 +50,11 @@ def test_angles_at_an_edge_are_the_edge(seed: int) -> None:
     body = crank(
         4, np.random.default_rng(seed), max_mass_kg=1000.0, sector={"centre_deg": 200.0, "half_angle_deg": 7.0}
     )
-    found = optimized(body)
-    assert found.status == "optimal"
-    at_edge = [one.angle_deg for one in found.counterweights if "sector" in one.active_limits]
+    answer = optimized(body)
+    assert answer.status == "optimal"
+    at_edge = [
+        counterweight.angle_deg for counterweight in answer.counterweights if "sector" in counterweight.active_limits
+    ]
     assert at_edge
     assert set(at_edge) <= {193.0, 207.0}
 
@@ -59,9 +65,9 @@ def test_over_the_turn_too(goal: dict[str, Any]) -> None:
     six = inline_six()
     for web in six["webs"]:
         web["max_mass_kg"] = 0.5
-    found = optimize(asked(six, bearing_weight=1, **goal))
-    assert found.status == "optimal"
-    mass = np.array([one.mass_kg for one in found.counterweights])
+    answer = optimize(request_of(six, bearing_weight=1, **goal))
+    assert answer.status == "optimal"
+    mass = np.array([counterweight.mass_kg for counterweight in answer.counterweights])
     assert np.all((mass == 0) | (mass > 1e-3 * np.max(mass)))
     assert 0 < np.sum(mass == 0) < 12
     assert np.all((mass == 0.5) | (mass < 0.5 * (1 - 1e-4)))
@@ -71,10 +77,13 @@ def test_a_sweep_fits_what_a_request_does() -> None:
     body = crank(7, np.random.default_rng(0), max_mass_kg=3.0)
     request = sweep(body, {"path": "/machine/webs/2/max_mass_kg", "values": [0.5, 3.0, 30.0]})
     rows = run_chunk(request.model_dump_json().encode(), 0, 3).to_pylist()
-    for found, value in zip(rows, (0.5, 3.0, 30.0), strict=True):
+    for line, value in zip(rows, (0.5, 3.0, 30.0), strict=True):
         body["machine"]["webs"][2]["max_mass_kg"] = value
-        for one in optimized(body).counterweights:
-            assert (found[f"mass_kg.{one.web}"], found[f"angle_deg.{one.web}"]) == (one.mass_kg, one.angle_deg)
+        for counterweight in optimized(body).counterweights:
+            assert (line[f"mass_kg.{counterweight.web}"], line[f"angle_deg.{counterweight.web}"]) == (
+                counterweight.mass_kg,
+                counterweight.angle_deg,
+            )
 
 
 def _with_sectors(rng: np.random.Generator) -> Body:
@@ -104,6 +113,6 @@ def test_sectors_leave_no_dust() -> None:
     for _ in range(150):
         answer = optimized(_with_sectors(rng))
         assert answer.status == "optimal"
-        mass = np.array([each.mass_kg for each in answer.counterweights])
+        mass = np.array([counterweight.mass_kg for counterweight in answer.counterweights])
         dusty += bool(np.any((mass > 0) & (mass <= 1e-4 * np.max(mass))))
     assert dusty == 0

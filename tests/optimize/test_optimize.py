@@ -17,11 +17,11 @@ from tests.optimize.machines import first_order, machine, random_machine, row, t
 
 
 def test_single_row_takes_half_the_reciprocating_mass_and_keeps_half_the_peak() -> None:
-    found = answer(single([(90.0, 20.0)], rotating=6.0))
+    optimum = answer(single([(90.0, 20.0)], rotating=6.0))
     full = 20.0 * 0.1 * OMEGA_SQUARED
-    assert found.total_mass_kg == pytest.approx(6.0 + 10.0, rel=1e-5)
-    assert found.residual.after.force.peak_N == pytest.approx(full / 2, rel=1e-5)
-    assert found.floor.force_N == pytest.approx(full / 2, rel=1e-12)
+    assert optimum.total_mass_kg == pytest.approx(6.0 + 10.0, rel=1e-5)
+    assert optimum.residual.after.force.peak_N == pytest.approx(full / 2, rel=1e-5)
+    assert optimum.floor.force_N == pytest.approx(full / 2, rel=1e-12)
 
 
 @pytest.mark.parametrize(
@@ -33,15 +33,15 @@ def test_single_row_takes_half_the_reciprocating_mass_and_keeps_half_the_peak() 
     ],
 )
 def test_complete_balance(rows: list[tuple[float, float]]) -> None:
-    found = answer(single(rows))
-    assert found.floor.force_N == 0.0
-    assert found.residual.after.force.peak_N <= 1.1e-6 * found.residual.before.force.peak_N
-    assert found.status == "optimal"
+    optimum = answer(single(rows))
+    assert optimum.floor.force_N == 0.0
+    assert optimum.residual.after.force.peak_N <= 1.1e-6 * optimum.residual.before.force.peak_N
+    assert optimum.status == "optimal"
 
 
 def test_unequal_v_leaves_half_the_difference() -> None:
-    found = answer(single([(0.0, 24.0), (-90.0, 14.0)]))
-    assert found.residual.after.force.peak_N == pytest.approx(0.5 * 10.0 * 0.1 * OMEGA_SQUARED, rel=1e-5)
+    optimum = answer(single([(0.0, 24.0), (-90.0, 14.0)]))
+    assert optimum.residual.after.force.peak_N == pytest.approx(0.5 * 10.0 * 0.1 * OMEGA_SQUARED, rel=1e-5)
 
 
 @pytest.mark.parametrize(
@@ -55,14 +55,14 @@ def test_free_masses_need_a_fraction_of_the_iron_of_the_rule(angles: list[float]
     # the rule puts half the reciprocating mass opposite every crank; both remove all that can be removed
     throws = [throw(float(k), float(angle), [row(0.0, 20.0)]) for k, angle in enumerate(angles)]
     webs = [web(str(k), float(k)) for k in range(len(angles))]
-    found = answer(machine(throws, webs))
+    optimum = answer(machine(throws, webs))
     unit = 20.0  # m r / R
-    assert found.total_mass_kg == pytest.approx(least * unit, rel=1e-4)
+    assert optimum.total_mass_kg == pytest.approx(least * unit, rel=1e-4)
     assert least < rule
-    assert found.residual.after.moment.peak_Nm == pytest.approx(found.floor.moment_Nm, rel=1e-5)
+    assert optimum.residual.after.moment.peak_Nm == pytest.approx(optimum.floor.moment_Nm, rel=1e-5)
     by_rule = [{"web": str(k), "mass_kg": 10.0, "angle_deg": angle + 180} for k, angle in enumerate(angles)]
     peak = np.max(np.abs(first_order(machine(throws, webs), by_rule, np.arange(360.0))[1]))
-    assert peak == pytest.approx(found.floor.moment_Nm, rel=1e-3)
+    assert peak == pytest.approx(optimum.floor.moment_Nm, rel=1e-3)
 
 
 def test_direction_weights_give_the_transfers_of_seed_002() -> None:
@@ -82,10 +82,10 @@ def test_direction_weights_give_the_transfers_of_seed_002() -> None:
 
 def test_a_direction_of_weight_zero_is_given_up() -> None:
     body = single([(90.0, 20.0)])
-    found = answer(body, direction_weights={"x": 0, "y": 1})
+    optimum = answer(body, direction_weights={"x": 0, "y": 1})
     full = 20.0 * 0.1 * OMEGA_SQUARED
-    assert found.residual.after.force.peak_y_N <= 2e-6 * full
-    assert found.residual.after.force.peak_x_N == pytest.approx(full, rel=1e-5)
+    assert optimum.residual.after.force.peak_y_N <= 2e-6 * full
+    assert optimum.residual.after.force.peak_x_N == pytest.approx(full, rel=1e-5)
 
 
 # ---- re-simulation by other means
@@ -95,11 +95,11 @@ def test_a_direction_of_weight_zero_is_given_up() -> None:
 @pytest.mark.parametrize("combine", ["sum", "max"])
 def test_answers_hold_when_simulated_anew(seed: int, combine: str) -> None:
     body = random_machine(seed)
-    found = answer(body, combine=combine)
-    assert found.status == "optimal"
-    assert found.certificate.relative_gap <= 1e-6
-    weights = [weight.model_dump() for weight in found.counterweights]
-    for state, fitted in ((found.residual.before, []), (found.residual.after, weights)):
+    optimum = answer(body, combine=combine)
+    assert optimum.status == "optimal"
+    assert optimum.certificate.relative_gap <= 1e-6
+    weights = [weight.model_dump() for weight in optimum.counterweights]
+    for state, fitted in ((optimum.residual.before, []), (optimum.residual.after, weights)):
         turn = first_order(body, fitted, np.arange(0.0, 360.0, 0.5))
         for index, ellipse, unit in ((0, state.force, "N"), (1, state.moment, "Nm")):
             values = turn[index]
@@ -117,8 +117,8 @@ def test_answers_hold_when_simulated_anew(seed: int, combine: str) -> None:
 @pytest.mark.parametrize("seed", range(25))
 def test_counterweights_respect_the_machine(seed: int) -> None:
     body = random_machine(seed)
-    found = answer(body)
-    for weight, place in zip(found.counterweights, body["webs"], strict=True):
+    optimum = answer(body)
+    for weight, place in zip(optimum.counterweights, body["webs"], strict=True):
         assert weight.web == place["name"]
         assert 0 <= weight.mass_kg <= place["max_mass_kg"] * (1 + 1e-15)
         assert 0 <= weight.angle_deg < 360
@@ -128,18 +128,18 @@ def test_counterweights_respect_the_machine(seed: int) -> None:
         if place["sector"] and weight.mass_kg:
             off = (weight.angle_deg - place["sector"]["centre_deg"] + 180) % 360 - 180
             assert abs(off) <= place["sector"]["half_angle_deg"] + 1e-9
-    total = sum(weight.mass_kg for weight in found.counterweights)
-    assert found.total_mass_kg == pytest.approx(total, rel=1e-15)
+    total = sum(weight.mass_kg for weight in optimum.counterweights)
+    assert optimum.total_mass_kg == pytest.approx(total, rel=1e-15)
     assert total <= (body["max_total_mass_kg"] or math.inf) * (1 + 1e-15)
-    assert found.certificate.mass_lower_bound_kg <= total
+    assert optimum.certificate.mass_lower_bound_kg <= total
 
 
 @pytest.mark.parametrize("seed", range(10))
 def test_no_random_counterweights_beat_the_bound(seed: int) -> None:
     body = random_machine(seed)
-    found = answer(body)
+    optimum = answer(body)
     rng = np.random.default_rng(seed)
-    planes = [one["position_m"] for one in (*body["throws"], *body["webs"])]
+    planes = [entry["position_m"] for entry in (*body["throws"], *body["webs"])]
     span = max(planes) - min(planes)
     for _ in range(30):
         weights, left = [], body["max_total_mass_kg"] or math.inf
@@ -151,7 +151,7 @@ def test_no_random_counterweights_beat_the_bound(seed: int) -> None:
             weights.append({"web": place["name"], "mass_kg": mass, "angle_deg": angle})
         peaks = np.max(np.abs(first_order(body, weights, np.arange(0.0, 360.0, 2.0))), axis=-1)
         value = peaks[0] + peaks[1] / span
-        assert value >= found.certificate.lower_bound * (1 - 1e-3)  # the grid of 2 degrees sees 1e-3 less
+        assert value >= optimum.certificate.lower_bound * (1 - 1e-3)  # the grid of 2 degrees sees 1e-3 less
 
 
 # ---- ordinary cases that are easily forgotten
@@ -164,39 +164,39 @@ def test_no_webs_webs_of_limit_zero_and_budget_zero() -> None:
         body | {"webs": [web("a", 0.0, 0.0)]},
         body | {"max_total_mass_kg": 0.0},
     ]
-    for each in nothing:
-        found = answer(each)
-        assert found.status == "optimal"
-        assert found.total_mass_kg == 0.0
-        assert found.residual.after == found.residual.before
-        assert found.certificate.relative_gap <= 1e-12
+    for fields in nothing:
+        optimum = answer(fields)
+        assert optimum.status == "optimal"
+        assert optimum.total_mass_kg == 0.0
+        assert optimum.residual.after == optimum.residual.before
+        assert optimum.certificate.relative_gap <= 1e-12
 
 
 def test_a_balanced_machine_needs_nothing() -> None:
     throws = [throw(float(k), angle, [row(90.0, 5.0)]) for k, angle in enumerate([0, 120, 240, 240, 120, 0])]
-    found = answer(machine(throws, [web("a", 0.0), web("b", 5.0)]))
-    assert found.status == "optimal"
-    assert found.total_mass_kg == 0.0
-    assert found.residual.before.force.peak_N == 0.0
-    assert found.residual.before.moment.peak_Nm == pytest.approx(0.0, abs=1e-9)
-    assert found.certificate.relative_gap == 0.0
+    optimum = answer(machine(throws, [web("a", 0.0), web("b", 5.0)]))
+    assert optimum.status == "optimal"
+    assert optimum.total_mass_kg == 0.0
+    assert optimum.residual.before.force.peak_N == 0.0
+    assert optimum.residual.before.moment.peak_Nm == pytest.approx(0.0, abs=1e-9)
+    assert optimum.certificate.relative_gap == 0.0
 
 
 def test_default_moment_weight_is_one_over_the_span() -> None:
     body = random_machine(5)
-    planes = [one["position_m"] for one in (*body["throws"], *body["webs"])]
+    planes = [entry["position_m"] for entry in (*body["throws"], *body["webs"])]
     span = max(planes) - min(planes)
-    given = answer(body, moment_weight=1 / span).certificate
-    assert answer(body).certificate.objective == pytest.approx(given.objective, rel=1e-12)
+    certificate = answer(body, moment_weight=1 / span).certificate
+    assert answer(body).certificate.objective == pytest.approx(certificate.objective, rel=1e-12)
 
 
 def test_only_the_effects_called_for_run_and_missing_rods_are_named() -> None:
     body = single([(90.0, 20.0)])
-    found = answer(body)
-    assert found.effects["rotating_inertia"].simulated
-    assert not found.effects["higher_orders"].simulated
-    assert found.effects["higher_orders"].needed_by == ()
-    assert (found.orders, found.stages, found.hodograph) == (None, None, None)
+    optimum = answer(body)
+    assert optimum.effects["rotating_inertia"].simulated
+    assert not optimum.effects["higher_orders"].simulated
+    assert optimum.effects["higher_orders"].needed_by == ()
+    assert (optimum.orders, optimum.stages, optimum.hodograph) == (None, None, None)
     with pytest.raises(MissingInput) as caught:
         optimize(OptimizeRequest.model_validate({"machine": body, "outputs": ["orders", "stages"]}))
     assert [problem.path for problem in caught.value.problems] == [
@@ -218,12 +218,12 @@ def test_scroll_machines_use_the_same_program(anti_rotation: dict[str, Any]) -> 
         "anti_rotation": anti_rotation,
         "webs": [web("upper", 0.02, 1.0, 0.02), web("lower", -0.1, 1.0, 0.02)],
     }
-    found = answer(body)
+    optimum = answer(body)
     ring = anti_rotation.get("mass_kg", 0.0) * 0.005 * (3000 * math.pi / 30) ** 2
     # analytic: two planes remove all that turns with the shaft; half of the ring's force turns against it
-    assert found.status == "optimal"
-    assert found.floor.force_N == pytest.approx(ring / 2, rel=1e-12)
-    assert found.residual.after.force.peak_N == pytest.approx(ring / 2, abs=2e-3)
+    assert optimum.status == "optimal"
+    assert optimum.floor.force_N == pytest.approx(ring / 2, rel=1e-12)
+    assert optimum.residual.after.force.peak_N == pytest.approx(ring / 2, abs=2e-3)
 
 
 def test_two_planes_balance_an_orbiting_scroll_with_the_closed_form_masses() -> None:

@@ -42,12 +42,12 @@ def masses(row: Body) -> tuple[float, float]:
 
 def load(body: Body) -> Load:
     """Rows and rotating masses, by the exact stroke."""
-    found = Load([], [])
+    actual_load = Load([], [])
     for throw in body["machine"]["throws"]:
         radius, crank = throw["crank_radius_m"], np.deg2rad(throw["crank_angle_deg"])
         turning = throw["rotating_mass_kg"] + sum(masses(row)[1] for row in throw["rows"])
-        found.planes.append(throw["position_m"])
-        found.forces.append(np.full(ANGLES.size, turning * radius * omega(body) ** 2 * np.exp(1j * crank)))
+        actual_load.planes.append(throw["position_m"])
+        actual_load.forces.append(np.full(ANGLES.size, turning * radius * omega(body) ** 2 * np.exp(1j * crank)))
         for row in throw["rows"]:
             axis, ratio = np.deg2rad(row["axis_deg"]), radius / row["connecting_rod"]["length_m"]
             own = ANGLES + crank - axis
@@ -55,9 +55,11 @@ def load(body: Body) -> Load:
             leaning = np.sqrt(1 - (ratio * sine) ** 2)
             outward = cosine + ratio * np.cos(2 * own) / leaning + ratio**3 * (sine * cosine) ** 2 / leaning**3
             pull = masses(row)[0] * radius * omega(body) ** 2 * outward
-            found.planes.append(throw["position_m"])
-            found.forces.append(pull * np.exp(1j * axis) * (1 - 1j * ratio * sine / leaning) * np.exp(-1j * ANGLES))
-    return found
+            actual_load.planes.append(throw["position_m"])
+            actual_load.forces.append(
+                pull * np.exp(1j * axis) * (1 - 1j * ratio * sine / leaning) * np.exp(-1j * ANGLES)
+            )
+    return actual_load
 
 
 def test_the_least_mass_over_the_revolution() -> None:
@@ -67,15 +69,15 @@ def test_the_least_mass_over_the_revolution() -> None:
     proof = answer.certificate
     assert answer.status == "optimal"
     assert proof is not None
-    webs, (first, last) = body["machine"]["webs"], [one["position_m"] for one in body["machine"]["bearings"]]
+    webs, (first, last) = body["machine"]["webs"], [bearing["position_m"] for bearing in body["machine"]["bearings"]]
     weights = cvxpy.Variable(len(webs), complex=True)
     rows, largest = load(body), cvxpy.Variable()
     limits = [cvxpy.abs(weights) <= [web["max_mass_kg"] * web["counterweight_radius_m"] for web in webs]]
-    for here, other in ((first, last), (last, first)):
+    for here, value in ((first, last), (last, first)):
 
-        def share(place: float, here: float = here, other: float = other) -> float:
+        def share(place: float, here: float = here, value: float = value) -> float:
             """Lever rule."""
-            return (place - other) / (here - other)
+            return (place - value) / (here - value)
 
         still = sum(share(plane) * force for plane, force in zip(rows.planes, rows.forces, strict=True))
         added = sum(share(web["position_m"]) * weights[k] for k, web in enumerate(webs))
@@ -86,8 +88,8 @@ def test_the_least_mass_over_the_revolution() -> None:
     assert proof.mass_objective_limit is not None
     assert proof.mass_lower_bound_kg is not None
     mass = cvxpy.sum(cvxpy.multiply(cvxpy.abs(weights), [1 / web["counterweight_radius_m"] for web in webs]))
-    kept = [*limits, largest <= proof.mass_objective_limit / 1e3]
-    least = cvxpy.Problem(cvxpy.Minimize(mass), kept).solve(solver=cvxpy.CLARABEL)
+    masks = [*limits, largest <= proof.mass_objective_limit / 1e3]
+    least = cvxpy.Problem(cvxpy.Minimize(mass), masks).solve(solver=cvxpy.CLARABEL)
     # fewer angles allow a little less
     assert proof.mass_lower_bound_kg * (1 - 1e-3) <= least <= answer.total_mass_kg * (1 + 1e-6)
 
@@ -97,8 +99,8 @@ def test_every_point_of_a_front_has_the_least_force_with_its_moment() -> None:
     machine, square = body["machine"], omega(body) ** 2
     # what force and moment compete for
     machine["max_total_mass_kg"] = 4.0
-    found = pareto(ParetoRequest.model_validate({**body, "points": 4}))
-    (front,) = found.fronts
+    answer = pareto(ParetoRequest.model_validate({**body, "points": 4}))
+    (front,) = answer.fronts
     co, counter, places = [], [], []
     for throw in machine["throws"]:
         crank = np.exp(1j * np.deg2rad(throw["crank_angle_deg"]))
@@ -111,10 +113,10 @@ def test_every_point_of_a_front_has_the_least_force_with_its_moment() -> None:
         places.append(throw["position_m"])
         co.append(turning * size * crank)
         counter.append(moving * size)
-    arms = np.array(places) - found.reference_plane_m
+    arms = np.array(places) - answer.reference_plane_m
     webs = machine["webs"]
     weights = cvxpy.Variable(len(webs), complex=True)
-    own = np.array([web["position_m"] for web in webs]) - found.reference_plane_m
+    own = np.array([web["position_m"] for web in webs]) - answer.reference_plane_m
     masses_kg = cvxpy.multiply(cvxpy.abs(weights), [1 / web["counterweight_radius_m"] for web in webs])
     limits = [masses_kg <= [web["max_mass_kg"] for web in webs], cvxpy.sum(masses_kg) <= 4.0]
     force = cvxpy.abs(np.sum(co) / 1e3 + square / 1e3 * cvxpy.sum(weights)) + abs(np.sum(counter)) / 1e3

@@ -35,7 +35,7 @@ PLACES, SPAN, BEARINGS = np.array([-0.06, 0.06]), 0.12, (-0.15, 0.11)
 ANGLES = np.linspace(0.0, 2 * np.pi, 721)[:-1]
 
 
-def asked(**more: Any) -> Body:
+def plate_example(**more: Any) -> Body:
     """The example, whose counterweights stand against the crank, between two bearings."""
     body: Body = json.loads(EXAMPLE.read_text())
     machine = body["machine"]
@@ -70,15 +70,17 @@ def cut(front: Real, rear: Real) -> Cut:
 def openings(answer: Any = None) -> Cut:
     """All openings of both plates, and closer ones about an answer."""
     most = np.deg2rad([90.0, 60.0])
-    grids = [[np.linspace(0.0, each, 81) for each in most]]
+    grids = [[np.linspace(0.0, value, 81) for value in most]]
     if answer is not None:
-        shapes = [one.shape for one in answer.counterweights]
+        shapes = [counterweight.shape for counterweight in answer.counterweights]
         half = np.deg2rad([0.0 if shape is None else shape.half_angle_deg for shape in shapes])
         grids += [
             [np.clip(a + width * np.linspace(-1, 1, 25), 0.0, m) for a, m in zip(half, most, strict=True)]
             for width in (3e-2, 1e-3, 3e-5)
         ]
-    front, rear = (np.concatenate(each) for each in zip(*(map(np.ravel, np.meshgrid(*g)) for g in grids), strict=True))
+    front, rear = (
+        np.concatenate(value) for value in zip(*(map(np.ravel, np.meshgrid(*g)) for g in grids), strict=True)
+    )
     return cut(front, rear)
 
 
@@ -136,24 +138,24 @@ class Figures:
     @property
     def load(self) -> Real:
         """The larger peak of both bearings, N."""
-        found = []
+        peaks = []
         for here, there in (BEARINGS, BEARINGS[::-1]):
             share = (there - PLACES) / (there - here)
             peak = self._peak(there / (there - here), self.unbalance @ share)
-            found.append(peak + self.scattered @ np.abs(share))
-        return np.max(found, axis=0) * self.omega**2
+            peaks.append(peak + self.scattered @ np.abs(share))
+        return np.max(peaks, axis=0) * self.omega**2
 
 
-def external(each: Figures) -> Real:
-    return each.force + each.moment / SPAN
+def external(figures: Figures) -> Real:
+    return figures.force + figures.moment / SPAN
 
 
-def all_orders(each: Figures) -> Real:
-    return each.all_force + each.moment / SPAN
+def all_orders(figures: Figures) -> Real:
+    return figures.all_force + figures.moment / SPAN
 
 
-def with_bearings(each: Figures) -> Real:
-    return external(each) + each.load
+def with_bearings(figures: Figures) -> Real:
+    return external(figures) + figures.load
 
 
 OFF = (float(np.hypot(0.02, 2 * np.sqrt(1.02) * np.sin(np.deg2rad(1.0)))), 0.004)
@@ -174,27 +176,30 @@ def in_scenarios(u: Real, goal: Callable[[Figures], Real]) -> Real:
 class Case(NamedTuple):
     body: Body
     objective: Callable[[Real], Real]
-    kept: Callable[[Real], NDArray[np.bool_]] = lambda u: np.ones(len(u), bool)
+    mask: Callable[[Real], NDArray[np.bool_]] = lambda u: np.ones(len(u), bool)
 
 
 CASES: Mapping[str, Case] = {
-    "all orders": Case(asked(objective={"orders": "all"}), lambda u: all_orders(Figures(u))),
+    "all orders": Case(plate_example(objective={"orders": "all"}), lambda u: all_orders(Figures(u))),
     "a ceiling along an axis": Case(
-        asked(objective={"orders": "all", "force_ceiling_x_N": 800}),
+        plate_example(objective={"orders": "all", "force_ceiling_x_N": 800}),
         lambda u: all_orders(Figures(u)),
         lambda u: Figures(u).across <= 800,
     ),
-    "bearings": Case(asked(objective={"bearing_weight": 1}), lambda u: with_bearings(Figures(u))),
-    "scenarios": Case(asked(scenarios=HEAVIER), lambda u: in_scenarios(u, external)),
+    "bearings": Case(plate_example(objective={"bearing_weight": 1}), lambda u: with_bearings(Figures(u))),
+    "scenarios": Case(plate_example(scenarios=HEAVIER), lambda u: in_scenarios(u, external)),
     "scenarios of all orders": Case(
-        asked(scenarios=HEAVIER, objective={"orders": "all"}), lambda u: in_scenarios(u, all_orders)
+        plate_example(scenarios=HEAVIER, objective={"orders": "all"}), lambda u: in_scenarios(u, all_orders)
     ),
-    "tolerances": Case(asked(tolerances=TOLERANCES), lambda u: external(Figures(u, off=OFF))),
+    "tolerances": Case(plate_example(tolerances=TOLERANCES), lambda u: external(Figures(u, off=OFF))),
     "tolerances of bearings": Case(
-        asked(tolerances=TOLERANCES, objective={"bearing_weight": 1}), lambda u: with_bearings(Figures(u, off=OFF))
+        plate_example(tolerances=TOLERANCES, objective={"bearing_weight": 1}),
+        lambda u: with_bearings(Figures(u, off=OFF)),
     ),
     "ceilings": Case(
-        asked(objective={"moment_ceiling_Nm": 20}), lambda u: external(Figures(u)), lambda u: Figures(u).moment <= 20
+        plate_example(objective={"moment_ceiling_Nm": 20}),
+        lambda u: external(Figures(u)),
+        lambda u: Figures(u).moment <= 20,
     ),
 }
 
@@ -202,7 +207,7 @@ CASES: Mapping[str, Case] = {
 @pytest.mark.parametrize("budget", [None, 2.4])
 @pytest.mark.parametrize("name", part(3, CASES))
 def test_no_opening_beats_what_is_proven(name: str, budget: float | None) -> None:
-    body, objective, kept = CASES[name]
+    body, objective, function = CASES[name]
     body = copy.deepcopy(body)
     body["machine"]["max_total_mass_kg"] = budget
     answer = optimized(body)
@@ -213,7 +218,7 @@ def test_no_opening_beats_what_is_proven(name: str, budget: float | None) -> Non
     assert proof.mass_lower_bound_kg is not None
     assert proof.mass_objective_limit is not None
     every = openings(answer)
-    value, allowed = objective(every.unbalance), kept(every.unbalance)
+    value, allowed = objective(every.unbalance), function(every.unbalance)
     allowed &= every.mass <= (np.inf if budget is None else budget * (1 + 1e-12))
     best = np.min(value[allowed])
     assert proof.lower_bound <= best * (1 + 1e-9)
@@ -223,8 +228,11 @@ def test_no_opening_beats_what_is_proven(name: str, budget: float | None) -> Non
     assert np.min(every.mass[optima], initial=np.inf) >= proof.mass_lower_bound_kg * (1 - 1e-9)
     assert answer.total_mass_kg == pytest.approx(proof.mass_lower_bound_kg, rel=1e-4)
     # what is answered is what is cut
-    shapes = [0.0 if one.shape is None else np.deg2rad(one.shape.half_angle_deg) for one in answer.counterweights]
-    own = cut(*(np.array([each]) for each in shapes))
+    shapes = [
+        0.0 if counterweight.shape is None else np.deg2rad(counterweight.shape.half_angle_deg)
+        for counterweight in answer.counterweights
+    ]
+    own = cut(*(np.array([shape]) for shape in shapes))
     assert answer.total_mass_kg == pytest.approx(own.mass[0], rel=1e-9)
     assert proof.objective == pytest.approx(objective(own.unbalance)[0], rel=1e-6)
 
@@ -232,7 +240,7 @@ def test_no_opening_beats_what_is_proven(name: str, budget: float | None) -> Non
 @pytest.mark.parametrize("budget", [None, 2.4])
 def test_goals_in_their_order_are_kept_and_bounded(budget: float | None) -> None:
     order = [{"goal": "external", "allowance": 0.05}, {"goal": "bearings", "allowance": 0.02}, {"goal": "mass"}]
-    body = asked(objective={"bearing_weight": 1, "priorities": order})
+    body = plate_example(objective={"bearing_weight": 1, "priorities": order})
     body["machine"]["max_total_mass_kg"] = budget
     answer = optimized(body)
     assert answer.status == "optimal"
@@ -246,30 +254,30 @@ def test_goals_in_their_order_are_kept_and_bounded(budget: float | None) -> None
     assert second.lower_bound is not None
     assert mass.lower_bound is not None
     assert np.min(outside) >= first.lower_bound * (1 - 1e-9)
-    kept = outside <= first.limit
-    assert np.min(load[kept]) >= second.lower_bound * (1 - 1e-9)
-    assert np.min(weight[kept & (load <= second.limit)]) >= mass.lower_bound * (1 - 1e-9)
+    mask = outside <= first.limit
+    assert np.min(load[mask]) >= second.lower_bound * (1 - 1e-9)
+    assert np.min(weight[mask & (load <= second.limit)]) >= mass.lower_bound * (1 - 1e-9)
     # what was allowed is used
     assert second.lower_bound < np.min(load[outside <= first.lower_bound * 1.01])
 
 
 @pytest.mark.parametrize("names", part(3, [["force", "bearings"], ["force", "mass"], ["moment", "bearings", "mass"]]))
 def test_no_opening_is_below_the_corner_of_a_point(names: list[str]) -> None:
-    body = asked()
+    body = plate_example()
     front = pareto(ParetoRequest.model_validate({"machine": body["machine"], "responses": names, "points": 4}))
     assert front.status == "optimal"
     for point in front.trades[0].points:
         every = openings(point)
         figures = Figures(every.unbalance)
         of = {"force": figures.force, "moment": figures.moment, "bearings": figures.load, "mass": every.mass}
-        corner = [0.0 if each is None else each for each in point.certificate.corner]
+        corner = [0.0 if value is None else value for value in point.certificate.corner]
         below = [of[name] < least * (1 - 1e-9) for name, least in zip(names, corner, strict=True)]
         assert not np.any(np.all(below, axis=0))
 
 
 @pytest.mark.parametrize("objective", [{"force_ceiling_N": 1500}, {"orders": "all", "force_ceiling_N": 2200}])
 def test_ceilings_that_no_opening_within_the_budget_keeps(objective: Body) -> None:
-    body = asked(objective=objective)
+    body = plate_example(objective=objective)
     assert optimized(body).status == "optimal"
     body["machine"]["max_total_mass_kg"] = 2.0
     answer = optimized(body)
@@ -281,7 +289,7 @@ def test_ceilings_that_no_opening_within_the_budget_keeps(objective: Body) -> No
 
 
 def test_a_row_of_a_sweep_is_the_answer() -> None:
-    body = asked(objective={"bearing_weight": 1})
+    body = plate_example(objective={"bearing_weight": 1})
     axis = {"path": "/machine/max_total_mass_kg", "values": [2.2, 2.8]}
     request = SweepRequest.model_validate({"base": body, "axes": [axis]})
     table = result_table(rows(request, 0, request.total), result_schema(request, b"{}")).to_pylist()
@@ -289,5 +297,9 @@ def test_a_row_of_a_sweep_is_the_answer() -> None:
         body["machine"]["max_total_mass_kg"] = row["/machine/max_total_mass_kg"]
         answer = optimize(OptimizeRequest.model_validate(body))
         assert (row["status"], row["total_mass_kg"]) == ("optimal", answer.total_mass_kg)
-        shapes = {one.web: one.shape.half_angle_deg for one in answer.counterweights if one.shape is not None}
+        shapes = {
+            counterweight.web: counterweight.shape.half_angle_deg
+            for counterweight in answer.counterweights
+            if counterweight.shape is not None
+        }
         assert {web: row[f"half_angle_deg.{web}"] for web in shapes} == pytest.approx(shapes)

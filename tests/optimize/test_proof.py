@@ -53,12 +53,12 @@ def tolerated(answer: OptimizeAnswer, name: str) -> float:
     """By what a bound is lower that holds for all that counts as keeping the ceilings: 1e-9 of their size, priced."""
     if answer.certificate is None:
         return 0.0
-    told = answer.certificate.multipliers
+    multipliers = answer.certificate.multipliers
     before = answer.residual.before
     size = {"force": before.force.peak_N, "moment": before.moment.peak_Nm}
-    proof = told.objective if name == "objective" else told.mass
+    proof = multipliers.objective if name == "objective" else multipliers.mass
     assert proof is not None
-    return 2e-9 * sum(abs(complex(each.x, each.y)) * size[each.response] for each in proof.ceilings)
+    return 2e-9 * sum(abs(complex(ceiling.x, ceiling.y)) * size[ceiling.response] for ceiling in proof.ceilings)
 
 
 def peaks(answer: OptimizeAnswer) -> tuple[float, float]:
@@ -80,8 +80,8 @@ def test_machines_with_sectors_budgets_and_ceilings_carry_the_proof_of_their_bou
     objective = {"combine": combine, "direction_weights": {"x": 1, "y": (1, 0.3)[seed // 2 % 2]}}
     free = proven({"machine": body, "objective": objective})
     force, moment = peaks(free)
-    kept = {"force_ceiling_N": 1.02 * force + 1, "moment_ceiling_Nm": 1.1 * moment + 1}
-    proven({"machine": body, "objective": objective | kept})
+    fields = {"force_ceiling_N": 1.02 * force + 1, "moment_ceiling_Nm": 1.1 * moment + 1}
+    proven({"machine": body, "objective": objective | fields})
     broken = {"force_ceiling_N": 0.3 * force, "moment_ceiling_Nm": 0.3 * moment}
     proven({"machine": body, "objective": objective | broken})
 

@@ -17,7 +17,7 @@ from schemas.sweep.request import SweepRequest
 from tests.night import part
 from tests.optimize.machines import machine, random_machine, row, throw, web
 from tests.optimize.robust import answered, crank, scenario, worst
-from tests.optimize.whole_turn import one_throw
+from tests.optimize.whole_turn import single_throw
 from tests.pairs.machines import BASES
 
 
@@ -27,8 +27,10 @@ def test_between_two_cranks_the_counterweight_is_in_the_middle() -> None:
     answer = answered(crank(), scenarios=two)
     assert answer.status == "optimal"
     assert worst(answer) == pytest.approx(100.0, abs=2e-4)
-    (one,) = answer.counterweights
-    assert (one.mass_kg, one.angle_deg) == pytest.approx((20.0 * np.cos(np.pi / 6), 210.0), rel=2e-3)
+    (counterweight,) = answer.counterweights
+    assert (counterweight.mass_kg, counterweight.angle_deg) == pytest.approx(
+        (20.0 * np.cos(np.pi / 6), 210.0), rel=2e-3
+    )
     price = answer.price_of_robustness
     assert price is not None
     # the nominal optimum leaves nothing of the one and all of the difference of the other
@@ -37,10 +39,10 @@ def test_between_two_cranks_the_counterweight_is_in_the_middle() -> None:
     assert price.nominal_optimum_worst_case == pytest.approx(200.0, abs=1e-3)
     # the proof leans on both alike
     assert answer.certificate is not None
-    rows = {each.name: each.value for each in answer.certificate.multipliers.objective.rows}
+    rows = {multiplier.name: multiplier.value for multiplier in answer.certificate.multipliers.objective.rows}
     assert rows == pytest.approx({"sum in as it is": 0.5, "sum in turned": 0.5}, abs=1e-3)
-    force = [each for each in answer.certificate.multipliers.objective.terms if each.response == "force"]
-    assert [each.scenario for each in force] == ["as it is", "turned"]
+    force = [term for term in answer.certificate.multipliers.objective.terms if term.response == "force"]
+    assert [multiplier.scenario for multiplier in force] == ["as it is", "turned"]
 
 
 def test_weights_say_which_scenario_gets_more() -> None:
@@ -52,10 +54,10 @@ def test_weights_say_which_scenario_gets_more() -> None:
 
 def test_of_several_speeds_the_highest_decides_and_ceilings_hold_in_each() -> None:
     """Analytic: the same machine at twice the speed has four times the forces; the slow one adds nothing."""
-    made = random_machine(3)
-    fast, slow = 2.0 * made["speed_rpm"], 0.5 * made["speed_rpm"]
-    alone = answered(made)
-    both = answered(made, scenarios=[scenario("fast", speed_rpm=fast), scenario("slow", speed_rpm=slow)])
+    design = random_machine(3)
+    fast, slow = 2.0 * design["speed_rpm"], 0.5 * design["speed_rpm"]
+    alone = answered(design)
+    both = answered(design, scenarios=[scenario("fast", speed_rpm=fast), scenario("slow", speed_rpm=slow)])
     assert alone.certificate is not None
     assert both.certificate is not None
     assert worst(both) == pytest.approx(4.0 * alone.certificate.objective, abs=8e-6 * alone.certificate.yardstick)
@@ -63,29 +65,29 @@ def test_of_several_speeds_the_highest_decides_and_ceilings_hold_in_each() -> No
     assert both.total_mass_kg == pytest.approx(alone.total_mass_kg, rel=2e-3)
     assert alone.residual.after is not None
     peak = alone.residual.after.force.peak_N
-    kept = answered(
-        made, objective={"force_ceiling_N": 4.0 * peak * 1.001}, scenarios=[scenario("fast", speed_rpm=fast)]
+    answer = answered(
+        design, objective={"force_ceiling_N": 4.0 * peak * 1.001}, scenarios=[scenario("fast", speed_rpm=fast)]
     )
-    assert kept.status == "optimal"
-    assert kept.worst_case is not None
-    assert kept.worst_case.force_peak_N <= 4.0 * peak * 1.001 * (1 + 1e-9)
+    assert answer.status == "optimal"
+    assert answer.worst_case is not None
+    assert answer.worst_case.force_peak_N <= 4.0 * peak * 1.001 * (1 + 1e-9)
 
 
 def test_scenarios_that_conflict_are_named() -> None:
     """Analytic: 90 N is more than the 0 N that each can have, and less than the 100 N that both can have."""
     two = [scenario("as it is"), scenario("turned", throws__0__crank_angle_deg=60)]
-    for each in two:
-        assert answered(crank(), objective={"force_ceiling_N": 90}, scenarios=[each]).status == "optimal"
+    for fields in two:
+        assert answered(crank(), objective={"force_ceiling_N": 90}, scenarios=[fields]).status == "optimal"
     answer = answered(crank(), objective={"force_ceiling_N": 90}, scenarios=[*two, scenario("again")])
     assert answer.status == "infeasible"
-    found = answer.infeasibility
-    assert found is not None
-    assert set(found.scenarios) >= {"turned"}
-    assert set(found.scenarios) <= {"as it is", "turned", "again"}
-    assert len(found.scenarios) >= 2
-    assert found.conflict == ("force_ceiling_N",)
-    assert found.smallest_force_N == pytest.approx(100.0, abs=1e-4)
-    assert found.smallest_force_lower_bound_N == pytest.approx(100.0, abs=1e-4)
+    infeasibility = answer.infeasibility
+    assert infeasibility is not None
+    assert set(infeasibility.scenarios) >= {"turned"}
+    assert set(infeasibility.scenarios) <= {"as it is", "turned", "again"}
+    assert len(infeasibility.scenarios) >= 2
+    assert infeasibility.conflict == ("force_ceiling_N",)
+    assert infeasibility.smallest_force_N == pytest.approx(100.0, abs=1e-4)
+    assert infeasibility.smallest_force_lower_bound_N == pytest.approx(100.0, abs=1e-4)
     assert (answer.worst_case, answer.price_of_robustness, answer.sensitivity) == (None, None, None)
     # one that cannot be kept by itself is the only one that is named
     heavy = scenario("heavy", throws__0__rotating_mass_kg=200)
@@ -100,48 +102,48 @@ def test_scenarios_that_conflict_are_named() -> None:
 def test_scenarios_in_another_order_twice_or_all_weighed_more_are_the_same(
     seed: int, order: list[int], factor: float
 ) -> None:
-    made = random_machine(seed)
+    design = random_machine(seed)
     three = [
         scenario("a"),
-        scenario("b", 0.5, speed_rpm=1.3 * made["speed_rpm"]),
-        scenario("c", throws__0__crank_angle_deg=made["throws"][0]["crank_angle_deg"] + 10.0),
+        scenario("b", 0.5, speed_rpm=1.3 * design["speed_rpm"]),
+        scenario("c", throws__0__crank_angle_deg=design["throws"][0]["crank_angle_deg"] + 10.0),
     ]
-    one = answered(made, scenarios=three)
-    assert one.certificate is not None
-    near = 2e-6 * one.certificate.yardstick
-    other = answered(made, scenarios=[*(three[n] for n in order), {**three[0], "name": "again"}])
-    assert worst(other) == pytest.approx(worst(one), abs=near)
-    scaled = answered(made, scenarios=[{**each, "weight": factor * each["weight"]} for each in three])
-    assert worst(scaled) == pytest.approx(factor * worst(one), abs=factor * near)
+    answer = answered(design, scenarios=three)
+    assert answer.certificate is not None
+    near = 2e-6 * answer.certificate.yardstick
+    second_answer = answered(design, scenarios=[*(three[n] for n in order), {**three[0], "name": "again"}])
+    assert worst(second_answer) == pytest.approx(worst(answer), abs=near)
+    scaled = answered(design, scenarios=[{**fields, "weight": factor * fields["weight"]} for fields in three])
+    assert worst(scaled) == pytest.approx(factor * worst(answer), abs=factor * near)
     assert scaled.certificate is not None
     assert scaled.certificate.lower_bound is not None
-    assert scaled.certificate.lower_bound <= factor * worst(one) * (1 + 1e-12)
+    assert scaled.certificate.lower_bound <= factor * worst(answer) * (1 + 1e-12)
 
 
 def test_the_longest_names_have_room_in_the_proof() -> None:
-    made, name = one_throw(), "n" * 64
-    for n, bearing in enumerate(made["bearings"]):
+    fields, name = single_throw(), "n" * 64
+    for n, bearing in enumerate(fields["bearings"]):
         bearing["name"] = f"{n}{name[1:]}"
-    answer = answered(made, objective={"bearing_weight": 1}, scenarios=[scenario(name), scenario("b", speed_rpm=8.7)])
+    answer = answered(fields, objective={"bearing_weight": 1}, scenarios=[scenario(name), scenario("b", speed_rpm=8.7)])
     assert answer.certificate is not None
-    assert max(len(each.name) for each in answer.certificate.multipliers.objective.rows) > 128
+    assert max(len(multiplier.name) for multiplier in answer.certificate.multipliers.objective.rows) > 128
 
 
 def test_force_and_bearings_of_the_worst_scenario_are_summed_there() -> None:
     """Analytic: one throw of m r = 1 and an infinite rod, at 1 and at 2 rad/s: four times the optimum at 1 rad/s."""
-    made, goal = one_throw(), {"moment_weight": 0, "bearing_weight": 1, "least_mass": False}
-    alone = answered(made, objective=goal)
-    both = answered(made, objective=goal, scenarios=[scenario("slow"), scenario("fast", speed_rpm="2 rad/s")])
+    fields, goal = single_throw(), {"moment_weight": 0, "bearing_weight": 1, "least_mass": False}
+    alone = answered(fields, objective=goal)
+    both = answered(fields, objective=goal, scenarios=[scenario("slow"), scenario("fast", speed_rpm="2 rad/s")])
     assert alone.certificate is not None
     assert worst(both) == pytest.approx(4.0 * alone.certificate.objective, rel=1e-5)
     ceiling = {**goal, "bearing_ceiling_N": 0.1}
-    refused = answered(made, objective=ceiling, scenarios=[scenario("slow"), scenario("fast", speed_rpm="2 rad/s")])
+    refused = answered(fields, objective=ceiling, scenarios=[scenario("slow"), scenario("fast", speed_rpm="2 rad/s")])
     assert refused.infeasibility is not None
     assert refused.infeasibility.conflict == ("bearing_ceiling_N",)
     # half of 1/4 of the reciprocating mass is left at the least, 0.25 N at 1 rad/s and four times that at 2
     smallest = refused.infeasibility.smallest
     assert smallest
-    assert [each.smallest for each in smallest] == pytest.approx([1.0] * len(smallest), abs=1e-5)
+    assert [peak.smallest for peak in smallest] == pytest.approx([1.0] * len(smallest), abs=1e-5)
 
 
 @pytest.mark.parametrize(
@@ -168,15 +170,15 @@ def test_force_and_bearings_of_the_worst_scenario_are_summed_there() -> None:
 )
 def test_scenarios_that_are_none_are_refused_by_name(scenarios: list[dict[str, Any]], pointer: str) -> None:
     rod = {"length_m": 0.5}
-    made = machine([throw(0.0, 0.0, [row(0.0, 5.0, connecting_rod=rod)])], [web("a", 0.0)])
+    design = machine([throw(0.0, 0.0, [row(0.0, 5.0, connecting_rod=rod)])], [web("a", 0.0)])
     with pytest.raises(ValidationError) as caught:
-        OptimizeRequest.model_validate({"machine": made, "scenarios": scenarios})
-    found = {
+        OptimizeRequest.model_validate({"machine": design, "scenarios": scenarios})
+    texts = {
         "/".join(map(str, (*error["loc"], *problem)))
         for error in caught.value.errors()
-        for problem in ([each.path for each in error.get("ctx", {}).get("problems", [])] or [()])
+        for problem in ([program.path for program in error.get("ctx", {}).get("problems", [])] or [()])
     }
-    assert any(f"scenarios/{pointer}" in each for each in found), found
+    assert any(f"scenarios/{pointer}" in text for text in texts), texts
 
 
 def test_sweeps_and_fronts_take_scenarios_and_the_ladder_does_not() -> None:
@@ -197,17 +199,17 @@ def test_tolerances_go_with_sweeps_fronts_and_the_ladder() -> None:
 
 
 def test_what_a_scenario_lacks_is_asked_for_in_its_name() -> None:
-    made = one_throw()
+    design = single_throw()
     broken = scenario("a", throws__0__rows__0__connecting_rod__length_m=None)
     goal = {"bearing_weight": 1}
-    assert answered(made, objective=goal, scenarios=[broken]).status == "optimal"
-    made["throws"][0]["rows"][0].pop("connecting_rod")
+    assert answered(design, objective=goal, scenarios=[broken]).status == "optimal"
+    design["throws"][0]["rows"][0].pop("connecting_rod")
     with pytest.raises(MissingInput):
-        answered(made, objective=goal, scenarios=[scenario("a")])
+        answered(design, objective=goal, scenarios=[scenario("a")])
 
 
 @pytest.mark.parametrize(
-    ("made", "objective", "ceiling", "share", "slower"),
+    ("design", "objective", "ceiling", "share", "slower"),
     part(
         2,
         [
@@ -220,14 +222,14 @@ def test_what_a_scenario_lacks_is_asked_for_in_its_name() -> None:
     ),
 )
 def test_the_multiplier_of_a_ceiling_is_what_it_costs_at_its_own_speed(
-    made: dict[str, Any], objective: dict[str, float], ceiling: str, share: float, slower: float
+    design: dict[str, Any], objective: dict[str, float], ceiling: str, share: float, slower: float
 ) -> None:
     """Independent: the central difference of certified objectives."""
-    several = [scenario("slow", slower), scenario("fast", speed_rpm=1.25 * made["speed_rpm"])]
+    several = [scenario("slow", slower), scenario("fast", speed_rpm=1.25 * design["speed_rpm"])]
 
     def under(cap: float) -> OptimizeAnswer:
         goal = {**objective, ceiling: cap}
-        return answered(made, objective=goal, scenarios=several, accuracy={"relative_gap": 1e-9})
+        return answered(design, objective=goal, scenarios=several, accuracy={"relative_gap": 1e-9})
 
     free = under(1e12).worst_case
     cap = share * getattr(free, ceiling.replace("ceiling", "peak"))
@@ -236,7 +238,9 @@ def test_the_multiplier_of_a_ceiling_is_what_it_costs_at_its_own_speed(
     assert below is not None
     assert at is not None
     assert above is not None
-    given = [each for each in at.multipliers.objective.ceilings if np.hypot(each.x, each.y) > 1e-9]
-    assert {each.scenario for each in given} == {"fast"}
-    cost = sum(np.hypot(each.x, each.y) for each in given)
+    multipliers = [
+        multiplier for multiplier in at.multipliers.objective.ceilings if np.hypot(multiplier.x, multiplier.y) > 1e-9
+    ]
+    assert {multiplier.scenario for multiplier in multipliers} == {"fast"}
+    cost = sum(np.hypot(multiplier.x, multiplier.y) for multiplier in multipliers)
     assert cost == pytest.approx((below.objective - above.objective) / (2 * step), rel=1e-4)

@@ -32,19 +32,19 @@ def tight(seed: int, **objective: Any) -> dict[str, Any]:
             )
         )
         for side in (-1, 1):
-            one = web(f"{i}{side}", 0.3 * i + 0.08 * side) | {"max_mass_kg": rng.uniform(0.5, 4.0)}
+            plane = web(f"{i}{side}", 0.3 * i + 0.08 * side) | {"max_mass_kg": rng.uniform(0.5, 4.0)}
             if side > 0:
-                one["sector"] = {
+                plane["sector"] = {
                     "centre_deg": crank + 180.0 + rng.uniform(-50.0, 50.0),
                     "half_angle_deg": rng.uniform(10.0, 60.0),
                 }
-            webs.append(one)
+            webs.append(plane)
     return {"machine": machine(throws, webs), "objective": objective, "accuracy": {"relative_gap": 1e-10}}
 
 
 def limit(body: dict[str, Any], price: ShadowPrice) -> tuple[dict[str, Any], str]:
     """Where the limit of a price stands in a request."""
-    webs = {one["name"]: one for one in body["machine"]["webs"]}
+    webs = {plane["name"]: plane for plane in body["machine"]["webs"]}
     return {
         "max_mass": lambda: (webs[price.web], "max_mass_kg"),
         "sector": lambda: (webs[price.web]["sector"], "half_angle_deg"),
@@ -71,9 +71,9 @@ def slope(body: dict[str, Any], price: ShadowPrice) -> float:
 @pytest.mark.parametrize("seed", [1, 2, 3])
 def test_prices_of_webs_are_finite_differences(seed: int, combine: str) -> None:
     body = tight(seed, combine=combine)
-    found = answer(body)
-    assert {price.limit for price in found.shadow_prices} >= {"max_mass"}
-    for price in found.shadow_prices:
+    optimum = answer(body)
+    assert {price.limit for price in optimum.shadow_prices} >= {"max_mass"}
+    for price in optimum.shadow_prices:
         # independent: a difference of certified objectives
         assert price.value == pytest.approx(slope(body, price), rel=TOLERANCE, abs=1e-3)
 
@@ -81,8 +81,8 @@ def test_prices_of_webs_are_finite_differences(seed: int, combine: str) -> None:
 def test_price_of_the_budget_is_a_finite_difference() -> None:
     body = tight(4)
     body["machine"]["max_total_mass_kg"] = 5.0
-    found = answer(body)
-    (price,) = [one for one in found.shadow_prices if one.limit == "max_total_mass"]
+    optimum = answer(body)
+    (price,) = [shadow_price for shadow_price in optimum.shadow_prices if shadow_price.limit == "max_total_mass"]
     assert price.unit == "N/kg"
     assert price.value > 1.0
     assert price.value == pytest.approx(slope(body, price), rel=TOLERANCE)
@@ -93,8 +93,8 @@ def test_price_of_a_ceiling_is_a_finite_difference() -> None:
     body = tight(5, force_weight=0.1)
     smallest = answer(tight(5, moment_weight=0.0)).residual.after.force.peak_N
     body["objective"]["force_ceiling_N"] = 0.5 * (smallest + answer(body).residual.after.force.peak_N)
-    found = answer(body)
-    (price,) = [one for one in found.shadow_prices if one.limit == "force_ceiling"]
+    optimum = answer(body)
+    (price,) = [shadow_price for shadow_price in optimum.shadow_prices if shadow_price.limit == "force_ceiling"]
     assert price.unit == "N/N"
     assert price.value > 0.01
     assert price.value == pytest.approx(slope(body, price) / 0.1, rel=TOLERANCE)
@@ -103,8 +103,8 @@ def test_price_of_a_ceiling_is_a_finite_difference() -> None:
 def test_one_web_too_small_is_worth_its_own_force() -> None:
     # analytic: one plane, rotating mass only, so that each kilogram at R takes R omega^2 off the peak force
     body = machine([throw(0.0, 0.0, [], rotating=10.0)], [web("a", 0.0) | {"max_mass_kg": 3.0}])
-    found = answer({"machine": body})
-    (price,) = found.shadow_prices
+    optimum = answer({"machine": body})
+    (price,) = optimum.shadow_prices
     radius, omega = body["webs"][0]["counterweight_radius_m"], body["speed_rpm"] * np.pi / 30.0
     assert (price.limit, price.web, price.unit) == ("max_mass", "a", "N/kg")
     assert price.value == pytest.approx(radius * omega**2, rel=1e-9)
@@ -112,9 +112,9 @@ def test_one_web_too_small_is_worth_its_own_force() -> None:
 
 def test_without_a_force_weight_prices_are_moments() -> None:
     body = tight(6, force_weight=0.0)
-    found = answer(body)
-    assert {price.unit for price in found.shadow_prices} <= {"N m/kg", "N m/deg"}
-    for price in found.shadow_prices:
+    optimum = answer(body)
+    assert {price.unit for price in optimum.shadow_prices} <= {"N m/kg", "N m/deg"}
+    for price in optimum.shadow_prices:
         weight = 1.0 / 0.76  # 1/L, from the first web to the last
         assert price.value == pytest.approx(slope(body, price) / weight, rel=TOLERANCE, abs=1e-3)
 
@@ -127,7 +127,7 @@ def test_limits_that_hold_nothing_up_have_no_price() -> None:
 def test_a_limit_of_zero_has_a_price() -> None:
     # analytic: what the first kilogram would be worth, R omega^2
     body = machine([throw(0.0, 0.0, [], rotating=10.0)], [web("a", 0.0, max_mass=0.0), web("b", 0.0, max_mass=1.0)])
-    found = answer({"machine": body})
+    optimum = answer({"machine": body})
     worth = body["webs"][0]["counterweight_radius_m"] * (body["speed_rpm"] * np.pi / 30.0) ** 2
-    assert [price.web for price in found.shadow_prices] == ["a", "b"]
-    assert [price.value for price in found.shadow_prices] == pytest.approx([worth, worth], rel=1e-9)
+    assert [price.web for price in optimum.shadow_prices] == ["a", "b"]
+    assert [price.value for price in optimum.shadow_prices] == pytest.approx([worth, worth], rel=1e-9)

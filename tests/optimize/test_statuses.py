@@ -19,14 +19,14 @@ from tests.verification.checking import optimized
 
 
 def test_infeasible_names_the_ceiling_and_what_can_be_reached() -> None:
-    found = answer(single([(90.0, 20.0)]), force_ceiling_N=100.0, moment_ceiling_Nm=1e6)
-    assert found.status == "infeasible"
-    assert found.counterweights == ()
-    assert found.total_mass_kg is None
-    assert found.certificate is None
-    assert found.residual.after is None
-    assert found.residual.before.force.peak_N > 0
-    reached = found.infeasibility
+    optimum = answer(single([(90.0, 20.0)]), force_ceiling_N=100.0, moment_ceiling_Nm=1e6)
+    assert optimum.status == "infeasible"
+    assert optimum.counterweights == ()
+    assert optimum.total_mass_kg is None
+    assert optimum.certificate is None
+    assert optimum.residual.after is None
+    assert optimum.residual.before.force.peak_N > 0
+    reached = optimum.infeasibility
     assert reached.conflict == ("force_ceiling_N",)
     half = 0.5 * 20.0 * 0.1 * OMEGA_SQUARED  # analytic
     assert reached.smallest_force_N == pytest.approx(half, rel=1e-9)
@@ -39,12 +39,12 @@ def test_ceilings_that_conflict_only_together_are_both_named() -> None:
     body = machine([throw(0.0, 0.0, [], rotating=20.0), throw(1.0, 0.0, [])], [web("a", 1.0)], reference_plane_m=0.0)
     force, moment = 2.0 * OMEGA_SQUARED, 2.0 * OMEGA_SQUARED
     assert answer(body, force_ceiling_N=0.6 * force, moment_ceiling_Nm=0.6 * moment).status == "optimal"
-    found = answer(body, force_ceiling_N=0.4 * force, moment_ceiling_Nm=0.4 * moment)
-    assert found.status == "infeasible"
-    assert found.infeasibility.conflict == ("force_ceiling_N", "moment_ceiling_Nm")
-    assert found.infeasibility.smallest_force_N == pytest.approx(0.0, abs=1e-6 * force)
-    assert found.infeasibility.smallest_moment_Nm == pytest.approx(0.0, abs=1e-6 * moment)
-    closest = found.infeasibility.closest.first_order
+    optimum = answer(body, force_ceiling_N=0.4 * force, moment_ceiling_Nm=0.4 * moment)
+    assert optimum.status == "infeasible"
+    assert optimum.infeasibility.conflict == ("force_ceiling_N", "moment_ceiling_Nm")
+    assert optimum.infeasibility.smallest_force_N == pytest.approx(0.0, abs=1e-6 * force)
+    assert optimum.infeasibility.smallest_moment_Nm == pytest.approx(0.0, abs=1e-6 * moment)
+    closest = optimum.infeasibility.closest.first_order
     # analytic, in units of the full force: (|1 - x| - 0.4) / 1 = (x - 0.4) / 0.4, each excess relative to the
     # larger of ceiling and response without counterweights
     share = 0.64 / 1.4  # 0.4 (0.6 - x) = x - 0.4
@@ -68,17 +68,17 @@ def test_active_limits_are_named() -> None:
 
 def test_an_asked_gap_that_cannot_be_certified_is_called_inaccurate() -> None:
     request = {"machine": random_machine(3), "accuracy": {"relative_gap": 1e-12}, "objective": {"combine": "max"}}
-    found = optimized(request)
-    expected = "optimal" if found.certificate.relative_gap <= 1e-12 else "inaccurate"
-    assert found.status == expected
+    optimum = optimized(request)
+    expected = "optimal" if optimum.certificate.relative_gap <= 1e-12 else "inaccurate"
+    assert optimum.status == expected
 
 
 def test_looser_and_tighter_gaps_are_reported_as_asked() -> None:
     for gap in (1e-3, 1e-6, 1e-8):
         request = {"machine": random_machine(1), "accuracy": {"relative_gap": gap}}
-        found = optimized(request)
-        assert found.status == "optimal"
-        assert found.certificate.relative_gap <= gap
+        optimum = optimized(request)
+        assert optimum.status == "optimal"
+        assert optimum.certificate.relative_gap <= gap
 
 
 def broken(monkeypatch: pytest.MonkeyPatch, change: Callable[[dict[str, Any]], dict[str, Any]]) -> None:
@@ -87,8 +87,8 @@ def broken(monkeypatch: pytest.MonkeyPatch, change: Callable[[dict[str, Any]], d
     def changed(solve: Callable[..., Any]) -> Callable[..., Any]:
         def run(*arguments: Any) -> Any:
             v, cone, row, unit = solve(*arguments)
-            found = change({"v": v, "cone": cone, "row": row})
-            return found["v"], found["cone"], found["row"], unit
+            variant = change({"v": v, "cone": cone, "row": row})
+            return variant["v"], variant["cone"], variant["row"], unit
 
         return run
 
@@ -102,35 +102,36 @@ def broken(monkeypatch: pytest.MonkeyPatch, change: Callable[[dict[str, Any]], d
 def test_a_solver_that_fails_is_never_silent(monkeypatch: pytest.MonkeyPatch) -> None:
     body = single([(90.0, 20.0)])
     monkeypatch.setattr(solver, "solved", lambda *_, **__: NoPoint("broken"))
-    broken(monkeypatch, lambda found: {name: np.full_like(np.asarray(a, float), np.nan) for name, a in found.items()})
+    broken(monkeypatch, lambda fields: {name: np.full_like(np.asarray(a, float), np.nan) for name, a in fields.items()})
     # the closed form would answer without any solver
     monkeypatch.setattr(solver, "cancelling", lambda statement, **_: np.zeros(statement.limits.radius.shape, complex))
-    found = answer(body)
-    assert found.status == "inaccurate"
-    assert found.total_mass_kg == 0.0
+    optimum = answer(body)
+    assert optimum.status == "inaccurate"
+    assert optimum.total_mass_kg == 0.0
     # analytic: nothing but the floor is proven, half of what there is
-    assert found.certificate.relative_gap == pytest.approx(0.5, rel=1e-12)
+    assert optimum.certificate.relative_gap == pytest.approx(0.5, rel=1e-12)
 
 
 def test_a_solver_that_lies_is_not_believed(monkeypatch: pytest.MonkeyPatch) -> None:
     honest = solver.solved
 
     def lying(*arguments: Any, **more: Any) -> Any:
-        found = honest(*arguments, **more)
-        if isinstance(found, NoPoint):
-            return found
-        of_solver = found.solution
+        row = honest(*arguments, **more)
+        if isinstance(row, NoPoint):
+            return row
+        of_solver = row.solution
         changes = {"x": 0.3 * of_solver.x, "row": -of_solver.row, "term": 5j * of_solver.term}
-        return found._replace(solution=of_solver._replace(**changes))
+        return row._replace(solution=of_solver._replace(**changes))
 
     monkeypatch.setattr(solver, "solved", lying)
     broken(
-        monkeypatch, lambda found: {"v": 0.3 * found["v"], "cone": 5.0 * found["cone"][..., ::-1], "row": -found["row"]}
+        monkeypatch,
+        lambda fields: {"v": 0.3 * fields["v"], "cone": 5.0 * fields["cone"][..., ::-1], "row": -fields["row"]},
     )
-    found = answer(random_machine(1))
-    assert found.status == "inaccurate"
-    assert found.certificate.lower_bound <= found.certificate.objective
-    assert found.certificate.relative_gap > 1e-6
+    optimum = answer(random_machine(1))
+    assert optimum.status == "inaccurate"
+    assert optimum.certificate.lower_bound <= optimum.certificate.objective
+    assert optimum.certificate.relative_gap > 1e-6
 
 
 def test_where_nothing_is_unbalanced_a_gap_still_counts(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -140,13 +141,13 @@ def test_where_nothing_is_unbalanced_a_gap_still_counts(monkeypatch: pytest.Monk
     opposed = [throw(-0.2, 0.0, [], rotating=10.0), throw(0.2, 180.0, [], rotating=10.0)]
     body = machine(opposed, [web("one", 0.3)])
     rest = answer(body).residual.before.moment.peak_Nm
-    asked = {"moment_weight": 0.0, "moment_ceiling_Nm": 0.9 * rest}
-    found = answer(body, **asked)
+    fields = {"moment_weight": 0.0, "moment_ceiling_Nm": 0.9 * rest}
+    optimum = answer(body, **fields)
     # analytic: the force cancels at rest, and one web that lowers the couple makes one
-    assert found.certificate.objective_without_counterweights == pytest.approx(0.0, abs=1e-9)
-    assert found.certificate.objective == pytest.approx(0.1 * rest / 0.3, rel=1e-6)
-    proof = found.certificate
-    assert found.status == "optimal"
+    assert optimum.certificate.objective_without_counterweights == pytest.approx(0.0, abs=1e-9)
+    assert optimum.certificate.objective == pytest.approx(0.1 * rest / 0.3, rel=1e-6)
+    proof = optimum.certificate
+    assert optimum.status == "optimal"
     assert proof.yardstick > proof.objective  # both what one web does to the force
     assert proof.relative_gap == pytest.approx(proof.gap / proof.yardstick)
 
@@ -157,4 +158,4 @@ def test_where_nothing_is_unbalanced_a_gap_still_counts(monkeypatch: pytest.Monk
         return replace(best, lower_bound=0.5 * best.lower_bound)
 
     monkeypatch.setattr(whole, "optima", modest)
-    assert answer(body, **asked).status == "inaccurate"
+    assert answer(body, **fields).status == "inaccurate"

@@ -37,28 +37,28 @@ def pairs(machine: ReciprocatingMachine) -> list[tuple[int, int]]:
         if abs(vector) > 1e-9 * size:
             turns.append((sign * vector / np.conj(vector), True))
     for turn, mirrored in turns:
-        at, of = (np.conj(each) if mirrored else each for each in (force, couple))
+        at, of = (np.conj(phasor) if mirrored else phasor for phasor in (force, couple))
         if abs(turn * at - force) <= 1e-9 * size and abs(turn * of + couple) <= 1e-9 * size * arm:
             break
     else:
         return []
-    found = []
+    values = []
     for k, web in enumerate(webs):
-        other = [
+        entries = [
             n
-            for n, one in enumerate(webs)
-            if abs(one.position_m + web.position_m - 2 * centre) <= 1e-9 * arm
-            and (one.counterweight_radius_m, one.max_mass_kg) == (web.counterweight_radius_m, web.max_mass_kg)
+            for n, plane in enumerate(webs)
+            if abs(plane.position_m + web.position_m - 2 * centre) <= 1e-9 * arm
+            and (plane.counterweight_radius_m, plane.max_mass_kg) == (web.counterweight_radius_m, web.max_mass_kg)
         ]
-        if len(other) != 1:
+        if len(entries) != 1:
             return []
-        found.append((k, other[0]))
-    return found
+        values.append((k, entries[0]))
+    return values
 
 
 def symmetric() -> list[Path]:
     """Examples whose webs have such pairs and whose answer is about the first order of one machine."""
-    found = []
+    paths = []
     for path in EXAMPLES:
         request = OptimizeRequest.model_validate_json(path.read_bytes())
         machine, goal = request.machine, request.objective
@@ -68,8 +68,8 @@ def symmetric() -> list[Path]:
             continue
         assert isinstance(machine, ReciprocatingMachine)
         if any(k != n for k, n in pairs(machine)):
-            found.append(path)
-    return found
+            paths.append(path)
+    return paths
 
 
 SYMMETRIC = symmetric()
@@ -82,9 +82,9 @@ def test_there_are_some() -> None:
 @pytest.mark.parametrize("path", SYMMETRIC, ids=[path.stem for path in SYMMETRIC])
 def test_equal_webs_get_equal_weights(path: Path) -> None:
     body = json.loads(path.read_bytes())
-    found = optimized({name: body[name] for name in ("machine", "objective", "accuracy") if name in body})
-    masses = [one.mass_kg for one in found.counterweights]
+    answer = optimized({name: body[name] for name in ("machine", "objective", "accuracy") if name in body})
+    masses = [counterweight.mass_kg for counterweight in answer.counterweights]
     machine = OptimizeRequest.model_validate(body).machine
     assert isinstance(machine, ReciprocatingMachine)
-    for k, other in pairs(machine):
-        assert abs(masses[k] - masses[other]) <= _EQUAL * max(masses), path.stem
+    for k, count in pairs(machine):
+        assert abs(masses[k] - masses[count]) <= _EQUAL * max(masses), path.stem

@@ -19,7 +19,7 @@ from tests.hard_turn.machines import twin
 from tests.night import part
 from tests.optimize.machines import random_machine
 from tests.optimize.robust import answered, crank, scenario, six_rows, worst
-from tests.optimize.whole_turn import ALONE, inline_six, one_throw
+from tests.optimize.whole_turn import ALONE, inline_six, single_throw
 
 
 def test_what_mass_and_angle_may_make_of_a_counterweight() -> None:
@@ -47,8 +47,8 @@ def test_a_counterweight_that_is_off_leaves_its_error() -> None:
 
 
 def test_tolerances_of_nothing_are_none() -> None:
-    made = random_machine(5)
-    plain, stated = answered(made), answered(made, tolerances={})
+    machine = random_machine(5)
+    plain, stated = answered(machine), answered(machine, tolerances={})
     assert stated.counterweights == plain.counterweights
     assert stated.certificate == plain.certificate
     assert plain.worst_case is None
@@ -59,7 +59,7 @@ def test_tolerances_of_nothing_are_none() -> None:
         (after.force.peak_N, after.moment.peak_Nm)
     )
     # the machine as the only scenario is the same program, found in another way
-    listed = answered(made, scenarios=[{"name": "as it is"}])
+    listed = answered(machine, scenarios=[{"name": "as it is"}])
     assert plain.certificate is not None
     assert worst(listed) == pytest.approx(plain.certificate.objective, abs=1e-6 * plain.certificate.yardstick)
     assert listed.total_mass_kg == pytest.approx(plain.total_mass_kg, rel=1e-4)
@@ -68,90 +68,94 @@ def test_tolerances_of_nothing_are_none() -> None:
 @pytest.mark.parametrize("seed", part(2, range(4)))
 def test_errors_in_the_worst_direction_come_to_the_worst_case_of_the_larger_peak_and_none_to_more(seed: int) -> None:
     """Independent: every counterweight off by its largest error, in the direction of what is left."""
-    made = random_machine(seed)
+    machine = random_machine(seed)
     objective = {"combine": "max", "force_weight": 1.0, "moment_weight": 0.7}
-    answer = answered(made, objective=objective, tolerances={"mass_relative": 0.03, "angle_deg": 3})
+    answer = answered(machine, objective=objective, tolerances={"mass_relative": 0.03, "angle_deg": 3})
     assert answer.status == "optimal"
     share = scatter_of(Tolerances(mass_relative=0.03, angle_deg=3)).share
-    radius = np.array([each["counterweight_radius_m"] for each in made["webs"]])
-    u = np.array([each.x_kg_m + 1j * each.y_kg_m for each in answer.counterweights])
-    rng, found = np.random.default_rng(seed), []
+    radius = np.array([web["counterweight_radius_m"] for web in machine["webs"]])
+    u = np.array([counterweight.x_kg_m + 1j * counterweight.y_kg_m for counterweight in answer.counterweights])
+    rng, larger_peaks = np.random.default_rng(seed), []
     for way in range(3602):
         turns = rng.uniform(0, 2 * np.pi, u.size) if way >= 3600 else np.full(u.size, np.deg2rad(0.1 * way))
         for arms in (
             np.ones(u.size),
-            np.sign([each["position_m"] - answer.reference_plane_m for each in made["webs"]]),
+            np.sign([web["position_m"] - answer.reference_plane_m for web in machine["webs"]]),
         ):
             off = u + share * np.abs(u) * arms * np.exp(1j * turns)
             if way % 60 and way < 3600:
                 continue
-            found.append(_larger_peak(made, off, radius))
-    assert max(found) <= worst(answer) * (1 + 1e-12)
-    assert max(found) == pytest.approx(worst(answer), rel=2e-3)
+            larger_peaks.append(_larger_peak(machine, off, radius))
+    assert max(larger_peaks) <= worst(answer) * (1 + 1e-12)
+    assert max(larger_peaks) == pytest.approx(worst(answer), rel=2e-3)
 
 
-def _larger_peak(made: dict[str, Any], u: Any, radius: Any) -> float:
+def _larger_peak(machine: dict[str, Any], u: Any, radius: Any) -> float:
     fitted = [
-        {"web": each["name"], "mass_kg": abs(one) / r, "angle_deg": np.rad2deg(np.angle(one))}
-        for each, one, r in zip(made["webs"], u, radius, strict=True)
+        {"web": web["name"], "mass_kg": abs(value) / r, "angle_deg": np.rad2deg(np.angle(value))}
+        for web, value, r in zip(machine["webs"], u, radius, strict=True)
     ]
-    after = analyze(AnalyzeRequest.model_validate({"machine": made, "counterweights": fitted})).residual
+    after = analyze(AnalyzeRequest.model_validate({"machine": machine, "counterweights": fitted})).residual
     assert after is not None
     assert after.after is not None
     return float(max(after.after.force.peak_N, 0.7 * after.after.moment.peak_Nm))
 
 
-def _scattered(made: dict[str, Any], share: float) -> list[dict[str, Any]]:
+def _scattered(machine: dict[str, Any], share: float) -> list[dict[str, Any]]:
     """The machine at every corner of what its reciprocating masses may be."""
-    places = [(t, r) for t, one in enumerate(made["throws"]) for r in range(len(one["rows"]))]
-    found = []
+    places = [(t, r) for t, throw in enumerate(machine["throws"]) for r in range(len(throw["rows"]))]
+    values = []
     for signs in itertools.product([-1.0, 1.0], repeat=len(places)):
-        other = deepcopy(made)
+        variant = deepcopy(machine)
         for (t, r), sign in zip(places, signs, strict=True):
-            other["throws"][t]["rows"][r]["reciprocating_mass_kg"] *= 1.0 + sign * share
-        found.append(other)
-    return found
+            variant["throws"][t]["rows"][r]["reciprocating_mass_kg"] *= 1.0 + sign * share
+        values.append(variant)
+    return values
 
 
 @pytest.mark.parametrize("across", part(2, [{"x": 1, "y": 1}, {"x": 1, "y": 0.3}, {"x": 0, "y": 1}]))
 def test_all_corners_of_the_masses_as_scenarios_are_their_scatter(across: dict[str, float]) -> None:
     """Independent: 2^6 machines analysed one by one, and given as scenarios where that is the same program."""
-    made = six_rows()
+    rows = six_rows()
     objective = {"combine": "max", "moment_weight": 2.0, "direction_weights": across, "least_mass": False}
-    answer = answered(made, objective=objective, tolerances={"reciprocating_mass_relative": 0.08})
+    answer = answered(rows, objective=objective, tolerances={"reciprocating_mass_relative": 0.08})
     assert answer.status == "optimal"
-    fitted = [each.model_dump(include={"web", "mass_kg", "angle_deg"}) for each in answer.counterweights]
-    corners = [
-        analyze(AnalyzeRequest.model_validate({"machine": each, "counterweights": fitted})).residual
-        for each in _scattered(made, 0.08)
+    fitted = [
+        counterweight.model_dump(include={"web", "mass_kg", "angle_deg"}) for counterweight in answer.counterweights
     ]
-    after = [each.after for each in corners if each is not None and each.after is not None]
+    corners = [
+        analyze(AnalyzeRequest.model_validate({"machine": fields, "counterweights": fitted})).residual
+        for fields in _scattered(rows, 0.08)
+    ]
+    after = [corner.after for corner in corners if corner is not None and corner.after is not None]
     assert len(after) == 64
     assert answer.worst_case is not None
-    assert answer.worst_case.force_peak_N == pytest.approx(max(each.force.peak_N for each in after), rel=1e-9)
-    assert answer.worst_case.moment_peak_Nm == pytest.approx(max(each.moment.peak_Nm for each in after), rel=1e-9)
+    assert answer.worst_case.force_peak_N == pytest.approx(max(order.force.peak_N for order in after), rel=1e-9)
+    assert answer.worst_case.moment_peak_Nm == pytest.approx(max(order.moment.peak_Nm for order in after), rel=1e-9)
     if across["x"] == across["y"]:
-        peaks = [max(each.force.peak_N, 2.0 * each.moment.peak_Nm) for each in after]
+        peaks = [max(order.force.peak_N, 2.0 * order.moment.peak_Nm) for order in after]
         assert worst(answer) == pytest.approx(max(peaks), rel=1e-9)
     listed = [
         scenario(
             str(n),
             **{
-                f"throws__{t}__rows__{r}__reciprocating_mass_kg": other["throws"][t]["rows"][r]["reciprocating_mass_kg"]
+                f"throws__{t}__rows__{r}__reciprocating_mass_kg": machine["throws"][t]["rows"][r][
+                    "reciprocating_mass_kg"
+                ]
                 for t in range(2)
                 for r in range(3)
             },
         )
-        for n, other in enumerate(_scattered(made, 0.08))
+        for n, machine in enumerate(_scattered(rows, 0.08))
     ]
     # a request takes 32: the corners with the first row heavy, which the others mirror only in the scatter itself
-    half = answered(made, objective=objective, scenarios=listed[32:])
+    half = answered(rows, objective=objective, scenarios=listed[32:])
     assert worst(half) <= worst(answer) * (1 + 1e-9)
 
 
 def test_a_sum_counts_every_peak_at_its_own_worst() -> None:
-    made = six_rows()
-    answer = answered(made, objective={"moment_weight": 2.0}, tolerances={"reciprocating_mass_relative": 0.08})
+    rows = six_rows()
+    answer = answered(rows, objective={"moment_weight": 2.0}, tolerances={"reciprocating_mass_relative": 0.08})
     assert answer.worst_case is not None
     assert worst(answer) == pytest.approx(
         answer.worst_case.force_peak_N + 2.0 * answer.worst_case.moment_peak_Nm, rel=1e-12
@@ -159,24 +163,24 @@ def test_a_sum_counts_every_peak_at_its_own_worst() -> None:
 
 
 def test_ceilings_hold_for_all_masses_and_errors() -> None:
-    made = six_rows()
-    free = answered(made, tolerances={"reciprocating_mass_relative": 0.05, "mass_relative": 0.02})
+    rows = six_rows()
+    free = answered(rows, tolerances={"reciprocating_mass_relative": 0.05, "mass_relative": 0.02})
     assert free.worst_case is not None
     most = {"force_ceiling_N": 0.99 * free.worst_case.force_peak_N, "force_ceiling_x_N": free.worst_case.force_peak_N}
-    kept = answered(made, objective=most, tolerances={"reciprocating_mass_relative": 0.05, "mass_relative": 0.02})
-    assert kept.status == "optimal"
-    assert kept.worst_case is not None
-    assert kept.worst_case.force_peak_N <= most["force_ceiling_N"] * (1 + 1e-9)
-    assert kept.active_limits == ("force_ceiling",)
+    answer = answered(rows, objective=most, tolerances={"reciprocating_mass_relative": 0.05, "mass_relative": 0.02})
+    assert answer.status == "optimal"
+    assert answer.worst_case is not None
+    assert answer.worst_case.force_peak_N <= most["force_ceiling_N"] * (1 + 1e-9)
+    assert answer.active_limits == ("force_ceiling",)
 
 
 def test_bearings_in_the_worst_of_several_speeds_with_tolerances() -> None:
     """Metamorphic: between the optima of the highest speed alone, without errors, and its answer's worst case."""
-    made, goal = inline_six(), {**ALONE, "bearing_weight": 1, "least_mass": False}
-    two = [scenario("as it is"), scenario("slow", speed_rpm=0.7 * made["speed_rpm"])]
-    alone = answered(made, objective=goal)
+    six, goal = inline_six(), {**ALONE, "bearing_weight": 1, "least_mass": False}
+    two = [scenario("as it is"), scenario("slow", speed_rpm=0.7 * six["speed_rpm"])]
+    alone = answered(six, objective=goal)
     assert alone.certificate is not None
-    answer = answered(made, objective=goal, scenarios=two, tolerances={"mass_relative": 0.02, "angle_deg": 2})
+    answer = answered(six, objective=goal, scenarios=two, tolerances={"mass_relative": 0.02, "angle_deg": 2})
     assert answer.status == "optimal"
     assert answer.worst_case is not None
     assert answer.worst_case.bearing_peak_N == pytest.approx(worst(answer), rel=1e-9)
@@ -187,32 +191,32 @@ def test_bearings_in_the_worst_of_several_speeds_with_tolerances() -> None:
     assert price.nominal <= worst(answer)
     assert worst(answer) <= (price.nominal_optimum_worst_case or 0.0) * (1 + 1e-9)
     assert answer.certificate is not None
-    assert {each.scenario for each in answer.certificate.multipliers.objective.terms} == {"as it is", "slow"}
+    assert {term.scenario for term in answer.certificate.multipliers.objective.terms} == {"as it is", "slow"}
 
 
 def test_the_bound_is_what_its_multipliers_prove_by_hand() -> None:
     """Independent: the formula of the documentation, with what a kilogram metre is off by as a cost."""
-    made = random_machine(2) | {"max_total_mass_kg": None}
-    for one in made["webs"]:
-        one["sector"] = None
-    answer = answered(made, objective={"combine": "max", "moment_weight": 1.0}, tolerances={"mass_relative": 0.05})
-    proof, omega = answer.certificate, made["speed_rpm"] * np.pi / 30
+    machine = random_machine(2) | {"max_total_mass_kg": None}
+    for web in machine["webs"]:
+        web["sector"] = None
+    answer = answered(machine, objective={"combine": "max", "moment_weight": 1.0}, tolerances={"mass_relative": 0.05})
+    proof, omega = answer.certificate, machine["speed_rpm"] * np.pi / 30
     assert proof is not None
     assert proof.lower_bound is not None
     before = answer.residual.orders.before[0]
     pairs = {"force": before.force, "moment": before.moment}
-    rows = {each.name: each.value for each in proof.multipliers.objective.rows}
+    rows = {row.name: row.value for row in proof.multipliers.objective.rows}
     assert sum(rows.values()) == pytest.approx(1.0)
     bound = sum(rows[name] * abs(_complex(pairs[name].counter_rotating)) for name in pairs)
-    slope, spread = np.zeros(len(made["webs"]), complex), np.zeros(len(made["webs"]))
+    slope, spread = np.zeros(len(machine["webs"]), complex), np.zeros(len(machine["webs"]))
     for term in proof.multipliers.objective.terms:
-        arms = np.array([each["position_m"] - answer.reference_plane_m for each in made["webs"]])
+        arms = np.array([plane["position_m"] - answer.reference_plane_m for plane in machine["webs"]])
         arms = np.ones(arms.size) if term.response == "force" else arms
         y = term.x + 1j * term.y
         assert abs(y) <= rows[term.row]
         bound += (np.conj(y) * _complex(pairs[term.response].co_rotating)).real
         slope, spread = slope + omega**2 * arms * y, spread + 0.05 * omega**2 * np.abs(arms) * rows[term.row]
-    most = np.array([each["max_mass_kg"] * each["counterweight_radius_m"] for each in made["webs"]])
+    most = np.array([plane["max_mass_kg"] * plane["counterweight_radius_m"] for plane in machine["webs"]])
     bound -= np.sum(most * np.maximum(np.abs(slope) - spread, 0.0))
     assert proof.lower_bound == pytest.approx(bound, rel=1e-9)
     assert 0 < proof.objective - bound <= 1.01e-6 * proof.yardstick
@@ -239,7 +243,7 @@ def test_tolerances_that_are_none_are_refused_by_name(tolerances: dict[str, floa
 
 
 def test_scatter_of_masses_is_of_peaks() -> None:
-    body = {"machine": one_throw(), "objective": {"bearing_weight": 1, "bearing_measure": "rms"}}
+    body = {"machine": single_throw(), "objective": {"bearing_weight": 1, "bearing_measure": "rms"}}
     with pytest.raises(ValidationError, match=r"of peaks only: .*bearing_measure rms"):
         OptimizeRequest.model_validate({**body, "tolerances": {"reciprocating_mass_relative": 0.01}})
 
@@ -248,7 +252,7 @@ def test_scatter_of_masses_is_of_peaks() -> None:
 def test_a_bearing_that_suits_the_heaviest_and_the_lightest_piston(share: float) -> None:
     """Analytic: circles of radius (1 +- p) m_rec/4 that meet in one point; the larger holds the smaller."""
     answer = answered(
-        one_throw(), objective={**ALONE, "bearing_weight": 1}, tolerances={"reciprocating_mass_relative": share}
+        single_throw(), objective={**ALONE, "bearing_weight": 1}, tolerances={"reciprocating_mass_relative": share}
     )
     assert answer.status == "optimal"
     assert answer.worst_case is not None
@@ -266,22 +270,22 @@ def test_a_bearing_that_suits_the_heaviest_and_the_lightest_piston(share: float)
 )
 def test_all_corners_of_the_masses_as_scenarios_are_their_scatter_over_the_turn(objective: dict[str, Any]) -> None:
     """Independent: the four corners of two masses, each a machine of its own."""
-    made = twin(gas=True)
+    actual_twin = twin(gas=True)
     listed = [
         scenario(
             str(n),
             **{
-                f"throws__{t}__rows__0__reciprocating_mass_kg": one["rows"][0]["reciprocating_mass_kg"]
-                for t, one in enumerate(other["throws"])
+                f"throws__{t}__rows__0__reciprocating_mass_kg": throw["rows"][0]["reciprocating_mass_kg"]
+                for t, throw in enumerate(machine["throws"])
             },
         )
-        for n, other in enumerate(_scattered(made, 0.1))
+        for n, machine in enumerate(_scattered(actual_twin, 0.1))
     ]
-    for each in (made, *(one for one in _scattered(made, 0.1))):
-        for one in each["throws"]:
-            one["rows"][0]["connecting_rod"]["reciprocating_share"] = 0.0
-    answer = answered(made, objective=objective, tolerances={"reciprocating_mass_relative": 0.1})
-    corners = answered(made, objective=objective, scenarios=listed)
+    for design in (actual_twin, *(fields for fields in _scattered(actual_twin, 0.1))):
+        for design_throw in design["throws"]:
+            design_throw["rows"][0]["connecting_rod"]["reciprocating_share"] = 0.0
+    answer = answered(actual_twin, objective=objective, tolerances={"reciprocating_mass_relative": 0.1})
+    corners = answered(actual_twin, objective=objective, scenarios=listed)
     assert (answer.status, corners.status) == ("optimal", "optimal")
     assert corners.certificate is not None
     assert worst(answer) == pytest.approx(worst(corners), abs=2e-6 * corners.certificate.yardstick)
@@ -293,8 +297,8 @@ def test_all_corners_of_the_masses_as_scenarios_are_their_scatter_over_the_turn(
 
 def test_a_bearing_ceiling_that_only_some_masses_exceed_is_out_of_reach() -> None:
     """Analytic: the floor is (1 + p) m_rec/4."""
-    asked = {"objective": {"bearing_ceiling_N": 0.26}, "tolerances": {"reciprocating_mass_relative": 0.05}}
-    answer = answered(one_throw(), **asked)
+    body = {"objective": {"bearing_ceiling_N": 0.26}, "tolerances": {"reciprocating_mass_relative": 0.05}}
+    answer = answered(single_throw(), **body)
     assert answer.status == "infeasible"
     assert answer.infeasibility is not None
     (first, _) = answer.infeasibility.smallest
@@ -320,9 +324,9 @@ def test_tiny_and_huge_tolerances_are_answered(tolerances: dict[str, float]) -> 
 
 
 def test_a_limit_that_is_over_at_once_leaves_the_price_open_and_says_so() -> None:
-    made, objective = twin(), {**ALONE, "bearing_weight": 1}
+    actual_twin, objective = twin(), {**ALONE, "bearing_weight": 1}
     tolerances = {"reciprocating_mass_relative": 1.0}
-    answer = answered(made, objective=objective, tolerances=tolerances, accuracy={"time_limit_s": 1e-9})
+    answer = answered(actual_twin, objective=objective, tolerances=tolerances, accuracy={"time_limit_s": 1e-9})
     assert "before the nominal optimum of price_of_robustness" in answer.status_reason
     price, case = answer.price_of_robustness, answer.worst_case
     assert price is not None
@@ -332,7 +336,7 @@ def test_a_limit_that_is_over_at_once_leaves_the_price_open_and_says_so() -> Non
     assert 0.0 < price.nominal < case.objective
     # analytic: bearings alone count, so that the objective is the largest of their peaks
     assert case.bearing_peak_N == pytest.approx(case.objective, rel=1e-8)
-    in_time = answered(made, objective=objective, tolerances=tolerances, accuracy={"time_limit_s": 30})
+    in_time = answered(actual_twin, objective=objective, tolerances=tolerances, accuracy={"time_limit_s": 30})
     assert "price_of_robustness" not in in_time.status_reason
     assert in_time.price_of_robustness is not None
     assert in_time.price_of_robustness.nominal_optimum is not None

@@ -54,11 +54,14 @@ def as_a_throw(z: float) -> dict[str, Any]:
 def test_it_counts_as_a_throw_of_the_same_unbalance() -> None:
     own, throw = optimized(with_own((0.1, X, Y))), optimized(as_a_throw(0.1))
     assert own.status == throw.status == "optimal"
-    for one, other in ((own.residual.before, throw.residual.before), (own.residual.after, throw.residual.after)):
-        assert one is not None
-        assert other is not None
-        assert one.force.peak_N == pytest.approx(other.force.peak_N, rel=1e-5)
-        assert one.moment.peak_Nm == pytest.approx(other.moment.peak_Nm, rel=1e-5)
+    for order, second_order in (
+        (own.residual.before, throw.residual.before),
+        (own.residual.after, throw.residual.after),
+    ):
+        assert order is not None
+        assert second_order is not None
+        assert order.force.peak_N == pytest.approx(second_order.force.peak_N, rel=1e-5)
+        assert order.moment.peak_Nm == pytest.approx(second_order.moment.peak_Nm, rel=1e-5)
     assert own.certificate is not None
     assert throw.certificate is not None
     assert own.certificate.lower_bound == pytest.approx(throw.certificate.lower_bound, rel=1e-9)
@@ -67,24 +70,26 @@ def test_it_counts_as_a_throw_of_the_same_unbalance() -> None:
 @pytest.mark.parametrize("output", ["main_bearings", "stages"])
 def test_bearings_and_stages_know_it(output: str) -> None:
     own, throw = (
-        analyze(AnalyzeRequest.model_validate({"machine": each["machine"], "outputs": [output]})).model_dump()[output]
-        for each in (with_own((0.1, X, Y)), as_a_throw(0.1))
+        analyze(AnalyzeRequest.model_validate({"machine": body["machine"], "outputs": [output]})).model_dump()[output]
+        for body in (with_own((0.1, X, Y)), as_a_throw(0.1))
     )
     if output == "stages":
-        assert [one["value"] for one in own] == pytest.approx([one["value"] for one in throw], rel=1e-9, abs=1e-6)
+        assert [entry["value"] for entry in own] == pytest.approx(
+            [entry["value"] for entry in throw], rel=1e-9, abs=1e-6
+        )
     else:
-        for one, other in zip(own["bearings"], throw["bearings"], strict=True):
-            assert one["before"]["peak_N"] == pytest.approx(other["before"]["peak_N"], rel=1e-7)
+        for bearing, second_bearing in zip(own["bearings"], throw["bearings"], strict=True):
+            assert bearing["before"]["peak_N"] == pytest.approx(second_bearing["before"]["peak_N"], rel=1e-7)
 
 
 def test_one_that_opposes_all_that_rotates_leaves_nothing_to_do() -> None:
     body = with_own((-0.2, -0.3, 0.0), (0.2, 0.0, -0.3))
     for throw in body["machine"]["throws"]:
         throw["rows"] = []
-    found = optimized(body)
-    assert found.residual.before.force.peak_N == 0.0
-    assert found.residual.before.moment.peak_Nm == 0.0
-    assert found.total_mass_kg == 0.0
+    answer = optimized(body)
+    assert answer.residual.before.force.peak_N == 0.0
+    assert answer.residual.before.moment.peak_Nm == 0.0
+    assert answer.total_mass_kg == 0.0
 
 
 def test_it_moves_neither_reference_plane_nor_span() -> None:
@@ -123,11 +128,11 @@ def test_sweeps_vary_it() -> None:
     body = with_own((0.1, X, Y))
     request = sweep(body, {"path": "/machine/unbalances/0/x_kg_m", "values": [-1.0, 0.0, 2.0]})
     rows = run_chunk(request.model_dump_json().encode(), 0, 3).to_pylist()
-    for found, value in zip(rows, (-1.0, 0.0, 2.0), strict=True):
+    for row, value in zip(rows, (-1.0, 0.0, 2.0), strict=True):
         body["machine"]["unbalances"][0]["x_kg_m"] = value
         alone = optimized(body)
-        assert found["total_mass_kg"] == alone.total_mass_kg
-        assert found["force_peak_N"] == alone.residual.after.force.peak_N
+        assert row["total_mass_kg"] == alone.total_mass_kg
+        assert row["force_peak_N"] == alone.residual.after.force.peak_N
 
 
 @pytest.mark.parametrize("wrong", [{"x_kg_m": float("nan")}, {"x_kg_m": 1e16}, {"mass_kg": 1}, {"position_m": None}])

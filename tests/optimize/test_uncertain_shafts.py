@@ -38,12 +38,12 @@ def answer(machine: dict[str, Any], goal: dict[str, Any], **more: Any) -> Optimi
 def test_unbalances_are_midway_between_two_pistons() -> None:
     # analytic: of halves of the masses |5 - u| + |5 - v| and |7 - u| + |7 - v| are both 2 where u + v = 12; of these
     # the lightest has the least on the shaft, whose web has half the radius
-    found = answer(BACKWARDS, FORCE, scenarios=[scenario("light"), scenario("heavy", mass=14.0)])
-    assert found.certificate.objective == pytest.approx(0.2 * WHOLE, rel=1e-5)
-    assert found.total_mass_kg == pytest.approx(7.0, abs=1e-4)
-    assert found.balance_shafts_mass_kg == pytest.approx(10.0, abs=2e-4)
-    assert found.worst_case.force_peak_N == pytest.approx(0.2 * WHOLE, rel=1e-5)
-    assert found.price_of_robustness.nominal_optimum == pytest.approx(0.0, abs=1e-5 * WHOLE)
+    optimum = answer(BACKWARDS, FORCE, scenarios=[scenario("light"), scenario("heavy", mass=14.0)])
+    assert optimum.certificate.objective == pytest.approx(0.2 * WHOLE, rel=1e-5)
+    assert optimum.total_mass_kg == pytest.approx(7.0, abs=1e-4)
+    assert optimum.balance_shafts_mass_kg == pytest.approx(10.0, abs=2e-4)
+    assert optimum.worst_case.force_peak_N == pytest.approx(0.2 * WHOLE, rel=1e-5)
+    assert optimum.price_of_robustness.nominal_optimum == pytest.approx(0.0, abs=1e-5 * WHOLE)
 
 
 @pytest.mark.parametrize(
@@ -58,8 +58,8 @@ def test_unbalances_are_midway_between_two_pistons() -> None:
     ],
 )
 def test_each_shaft_is_off_in_its_worst_direction(tolerances: dict[str, float], left: float) -> None:
-    found = answer(BACKWARDS, FORCE, tolerances=tolerances)
-    for value in (found.certificate.objective, found.worst_case.objective, found.worst_case.force_peak_N):
+    optimum = answer(BACKWARDS, FORCE, tolerances=tolerances)
+    for value in (optimum.certificate.objective, optimum.worst_case.objective, optimum.worst_case.force_peak_N):
         assert value == pytest.approx(left * WHOLE, rel=1e-4)
 
 
@@ -76,15 +76,18 @@ def off_by(rng: np.random.Generator, weights: list[dict[str, Any]], share: float
 def test_nothing_that_is_off_is_worse_than_the_worst_case(machine: dict[str, Any], orders: str) -> None:
     # independent: masses times accelerations, with what is fitted off at random
     tolerances = {"mass_relative": 0.03, "angle_deg": 2.0}
-    found = answer(machine, {"orders": orders}, tolerances=tolerances)
+    optimum = answer(machine, {"orders": orders}, tolerances=tolerances)
     rng, largest = np.random.default_rng(3), np.zeros(2)
     for _ in range(20):
-        built = json.loads(found.model_dump_json())
-        for weights in (built["counterweights"], *(one["counterweights"] for one in built["balance_shafts"])):
+        built = json.loads(optimum.model_dump_json())
+        for weights in (
+            built["counterweights"],
+            *(balance_shaft["counterweights"] for balance_shaft in built["balance_shafts"]),
+        ):
             off_by(rng, weights, 0.03, 2.0)
         turn = [np.abs(at(machine, built, theta, first=orders == "first")) for theta in range(0, 360, 3)]
         largest = np.maximum(largest, np.max(turn, axis=0))
-    worst = found.worst_case
+    worst = optimum.worst_case
     assert np.all(largest <= np.array([worst.force_peak_N, worst.moment_peak_Nm]) * (1 + 1e-9) + 1e-6)
     # and a good part of it is met
     assert np.sum(largest) >= 0.5 * (worst.force_peak_N + worst.moment_peak_Nm)
@@ -93,16 +96,16 @@ def test_nothing_that_is_off_is_worse_than_the_worst_case(machine: dict[str, Any
 def test_the_roll_moment_is_off_too() -> None:
     # independent: torque about the shaft from definitions, with what is fitted off at random
     goal = {"force_weight": 0, "moment_weight": 0, "roll_weight": 1.0}
-    found = answer(TWICE, goal, tolerances={"mass_relative": 0.05})
-    nominal = found.roll.after.peak_Nm
+    optimum = answer(TWICE, goal, tolerances={"mass_relative": 0.05})
+    nominal = optimum.roll.after.peak_Nm
     rng, largest = np.random.default_rng(5), 0.0
     for _ in range(20):
-        built = json.loads(found.model_dump_json())
-        for one in built["balance_shafts"]:
-            off_by(rng, one["counterweights"], 0.05, 0.0)
+        built = json.loads(optimum.model_dump_json())
+        for balance_shaft in built["balance_shafts"]:
+            off_by(rng, balance_shaft["counterweights"], 0.05, 0.0)
         largest = max(largest, max(abs(rolled(TWICE, built, theta)) for theta in range(0, 360, 3)))
-    assert nominal * 0.99 <= largest <= found.certificate.objective * (1 + 1e-9)
-    assert found.certificate.objective > nominal
+    assert nominal * 0.99 <= largest <= optimum.certificate.objective * (1 + 1e-9)
+    assert optimum.certificate.objective > nominal
 
 
 @pytest.mark.parametrize("machine", part(2, [BACKWARDS, FORWARDS, WITHIN, MIXED, TWICE]))
@@ -154,6 +157,6 @@ def test_ceilings_hold_in_all_cases_or_their_conflict_is_named() -> None:
     for ceiling, status in ((0.21, "optimal"), (0.19, "infeasible")):
         goal = {"moment_weight": 0, "force_ceiling_y_N": ceiling * WHOLE}
         body = {"machine": BACKWARDS, "objective": goal, "scenarios": [scenario("light"), scenario("heavy", mass=14.0)]}
-        found = optimize(OptimizeRequest.model_validate(body))
-        assert found.status == status, found.status_reason
-        assert not (found.infeasibility and found.infeasibility.conflict != ("force_ceiling_y_N",))
+        optimum = optimize(OptimizeRequest.model_validate(body))
+        assert optimum.status == status, optimum.status_reason
+        assert not (optimum.infeasibility and optimum.infeasibility.conflict != ("force_ceiling_y_N",))

@@ -87,10 +87,10 @@ def test_what_is_compiled_is_what_answers_need() -> None:
         near_sums: ("gridded", "near"),
     }
     for module, names in entries.items():
-        kept = Path(str(module.__file__)).parent / "__pycache__"
+        parent = Path(str(module.__file__)).parent / "__pycache__"
         for name in names:
             file = Path(str(module.__file__)).stem
-            assert len(list(kept.glob(f"{file}.{name}-*.{version}.*.nbc"))) <= 1, name
+            assert len(list(parent.glob(f"{file}.{name}-*.{version}.*.nbc"))) <= 1, name
 
 
 #: as `make` compiles kernels, then as a service warms up; what that had compiled beside them

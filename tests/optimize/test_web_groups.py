@@ -41,15 +41,15 @@ def phasors(answer: OptimizeAnswer) -> np.ndarray:
     angles = np.repeat(ANGLES, 2)
     return np.array(
         [
-            one.mass_kg * np.exp(1j * np.radians(one.angle_deg - a))
-            for one, a in zip(answer.counterweights, angles, strict=True)
+            counterweight.mass_kg * np.exp(1j * np.radians(counterweight.angle_deg - a))
+            for counterweight, a in zip(answer.counterweights, angles, strict=True)
         ]
     )
 
 
-def objective(asked: dict[str, Any], u: np.ndarray, moment_share: float = 1.0) -> Any:
+def objective(request: dict[str, Any], u: np.ndarray, moment_share: float = 1.0) -> Any:
     """Independent: weighted peaks of the first order by hand, in newtons, of unbalances (..., K) kg m."""
-    machine = asked["machine"]
+    machine = request["machine"]
     square = (machine["speed_rpm"] * np.pi / 30) ** 2
     force, couple, back, back_couple = 0j, 0j, 0j, 0j
     for throw in machine["throws"]:
@@ -66,58 +66,58 @@ def objective(asked: dict[str, Any], u: np.ndarray, moment_share: float = 1.0) -
 
 def test_all_alike_is_one_unknown() -> None:
     """Independent: the same by a search over the two components of the one casting."""
-    asked = body([NAMES])
-    found = optimized(asked)
-    assert found.status == "optimal"
-    alike = phasors(found)
+    payload = body([NAMES])
+    answer = optimized(payload)
+    assert answer.status == "optimal"
+    alike = phasors(answer)
     assert np.allclose(alike, alike[0], rtol=0, atol=1e-12 * abs(alike[0]))
-    assert len({one.mass_kg for one in found.counterweights}) == 1
+    assert len({counterweight.mass_kg for counterweight in answer.counterweights}) == 1
     turn = np.exp(1j * np.radians(np.repeat(ANGLES, 2))) * RADIUS
     best = min(
-        minimize(lambda p: objective(asked, (p[0] + 1j * p[1]) * turn), start, method="Nelder-Mead",
+        minimize(lambda p: objective(payload, (p[0] + 1j * p[1]) * turn), start, method="Nelder-Mead",
                  options={"xatol": 1e-10, "fatol": 1e-10, "maxiter": 4000}).fun
         for start in ((-5.0, 0.0), (-5.0, 2.0))
     )  # fmt: skip
-    assert found.certificate is not None
-    assert found.certificate.objective == pytest.approx(best, rel=1e-5)
-    assert found.certificate.lower_bound is not None
-    assert found.certificate.lower_bound <= best * (1 + 1e-9)
+    assert answer.certificate is not None
+    assert answer.certificate.objective == pytest.approx(best, rel=1e-5)
+    assert answer.certificate.lower_bound is not None
+    assert answer.certificate.lower_bound <= best * (1 + 1e-9)
 
 
 @pytest.mark.parametrize("groups", [[["0a", "0b"], ["1a", "1b"], ["2a", "2b"]], [["0a", "1a", "2a"], ["0b", "2b"]]])
 @pytest.mark.parametrize("goal", [{}, {"combine": "max"}, {"direction_weights": {"x": 2, "y": 1}}])
 def test_groups_are_kept_and_cost_something(groups: list[list[str]], goal: dict[str, Any]) -> None:
     """Independent: no better than each web by itself, and than what a search finds no worse."""
-    found, free = (optimized(body(each, objective=goal)) for each in (groups, []))
-    assert found.status == free.status == "optimal"
-    place = dict(zip(NAMES, phasors(found), strict=True))
+    answer, free = (optimized(body(values, objective=goal)) for values in (groups, []))
+    assert answer.status == free.status == "optimal"
+    place = dict(zip(NAMES, phasors(answer), strict=True))
     for group in groups:
         assert np.allclose([place[name] for name in group], place[group[0]], rtol=0, atol=1e-12)
-    assert found.certificate is not None
+    assert answer.certificate is not None
     assert free.certificate is not None
-    assert found.certificate.objective >= free.certificate.lower_bound * (1 - 1e-12)
-    assert found.certificate.mass_relative_gap is not None
-    assert found.certificate.mass_relative_gap <= 1e-4
+    assert answer.certificate.objective >= free.certificate.lower_bound * (1 - 1e-12)
+    assert answer.certificate.mass_relative_gap is not None
+    assert answer.certificate.mass_relative_gap <= 1e-4
 
 
 def test_the_largest_mass_and_the_budget_count_for_each() -> None:
     full = optimized(body([NAMES], max_mass_kg=2.0))
-    assert [one.mass_kg for one in full.counterweights] == [2.0] * 6
-    assert all(one.active_limits == ("max_mass",) for one in full.counterweights)
-    asked = body([NAMES])
-    asked["machine"]["max_total_mass_kg"] = 9.0
-    spent = optimized(asked)
-    assert [one.mass_kg for one in spent.counterweights] == pytest.approx([1.5] * 6, rel=1e-4)
+    assert [counterweight.mass_kg for counterweight in full.counterweights] == [2.0] * 6
+    assert all(counterweight.active_limits == ("max_mass",) for counterweight in full.counterweights)
+    payload = body([NAMES])
+    payload["machine"]["max_total_mass_kg"] = 9.0
+    spent = optimized(payload)
+    assert [counterweight.mass_kg for counterweight in spent.counterweights] == pytest.approx([1.5] * 6, rel=1e-4)
     assert spent.active_limits == ("max_total_mass",)
 
 
 def test_sectors_turn_with_the_cranks() -> None:
-    asked = body([NAMES])
-    for web, angle in zip(asked["machine"]["webs"], np.repeat(ANGLES, 2).tolist(), strict=True):
+    payload = body([NAMES])
+    for web, angle in zip(payload["machine"]["webs"], np.repeat(ANGLES, 2).tolist(), strict=True):
         web["sector"] = {"centre_deg": angle + 150.0, "half_angle_deg": 10.0}
-    found = optimized(asked)
-    assert found.status == "optimal"
-    off = [one.angle_from_crank_deg for one in found.counterweights]
+    answer = optimized(payload)
+    assert answer.status == "optimal"
+    off = [counterweight.angle_from_crank_deg for counterweight in answer.counterweights]
     assert off == pytest.approx([off[0]] * 6, abs=1e-9)
     assert 140.0 - 1e-9 <= (off[0] or 0.0) <= 160.0 + 1e-9
 
@@ -126,10 +126,10 @@ def test_ceilings_with_and_without_reach() -> None:
     best = optimized(body([NAMES]))
     assert best.residual.after is not None
     low = 0.98 * best.residual.after.force.peak_N
-    kept = optimized(body([NAMES], objective={"force_ceiling_N": low}))
-    assert kept.status == "optimal"
-    assert kept.residual.after is not None
-    assert kept.residual.after.force.peak_N <= low * (1 + 1e-9)
+    answer = optimized(body([NAMES], objective={"force_ceiling_N": low}))
+    assert answer.status == "optimal"
+    assert answer.residual.after is not None
+    assert answer.residual.after.force.peak_N <= low * (1 + 1e-9)
     # all by themselves come down to the floor of both, one unknown does not
     ceilings = {"force_ceiling_N": 1.05 * best.floor.force_N, "moment_ceiling_Nm": 1.05 * best.floor.moment_Nm}
     free, tight = (optimized(body(groups, objective=ceilings)) for groups in ([], [NAMES]))
@@ -137,32 +137,32 @@ def test_ceilings_with_and_without_reach() -> None:
     assert tight.infeasibility is not None
     assert set(tight.infeasibility.conflict) <= {"force_ceiling_N", "moment_ceiling_Nm"}
     closest = tight.infeasibility.closest.counterweights
-    assert len({one.mass_kg for one in closest}) == 1
+    assert len({counterweight.mass_kg for counterweight in closest}) == 1
 
 
 def test_no_limit_becomes_one_for_each_web() -> None:
-    asked = body([NAMES])
-    for web in asked["machine"]["webs"]:
+    payload = body([NAMES])
+    for web in payload["machine"]["webs"]:
         web["max_mass_kg"] = None
-    found = optimized(asked)
-    assert found.status == "optimal"
-    assert found.certificate is not None
-    assert set(found.certificate.implied_max_mass_kg) == set(NAMES)
-    assert found.certificate.objective == pytest.approx(optimized(body([NAMES])).certificate.objective, rel=1e-6)  # type: ignore[union-attr]
+    answer = optimized(payload)
+    assert answer.status == "optimal"
+    assert answer.certificate is not None
+    assert set(answer.certificate.implied_max_mass_kg) == set(NAMES)
+    assert answer.certificate.objective == pytest.approx(optimized(body([NAMES])).certificate.objective, rel=1e-6)  # type: ignore[union-attr]
 
 
 def test_the_checker_finds_castings_that_differ() -> None:
-    asked = body([NAMES])
-    answer = optimized(asked).model_dump(mode="json")
-    assert not broken(asked, answer)
+    payload = body([NAMES])
+    answer = optimized(payload).model_dump(mode="json")
+    assert not broken(payload, answer)
     answer["counterweights"][0]["mass_kg"] *= 1.001
-    assert any("web_groups" in each for each in broken(asked, answer))
+    assert any("web_groups" in claim for claim in broken(payload, answer))
 
 
-def refused(asked: dict[str, Any], kind: Any = OptimizeRequest) -> tuple[tuple[str | int, ...], str]:
-    with pytest.raises(ValidationError) as found:
-        kind.model_validate(asked)
-    (problem, *_) = found.value.errors()
+def refused(fields: dict[str, Any], kind: Any = OptimizeRequest) -> tuple[tuple[str | int, ...], str]:
+    with pytest.raises(ValidationError) as refusal:
+        kind.model_validate(fields)
+    (problem, *_) = refusal.value.errors()
     first = problem["ctx"]["problems"][0]
     return first.path, first.message
 
@@ -194,12 +194,12 @@ def test_bad_groups_name_the_field(groups: list[list[str]], path: tuple[str | in
     ],
 )
 def test_unlike_webs_are_refused(change: dict[str, Any], words: str) -> None:
-    asked = body([["0a", "0b"]])
-    asked["machine"]["webs"][1] |= change
-    with pytest.raises(OutOfRange) as found:
-        optimized(asked)
-    assert found.value.problems[0].path == ("machine", "web_groups", 0, "webs", 1)
-    assert words in found.value.problems[0].message
+    payload = body([["0a", "0b"]])
+    payload["machine"]["webs"][1] |= change
+    with pytest.raises(OutOfRange) as refusal:
+        optimized(payload)
+    assert refusal.value.problems[0].path == ("machine", "web_groups", 0, "webs", 1)
+    assert words in refusal.value.problems[0].message
 
 
 @pytest.mark.parametrize("mirrored", [False, True])
@@ -211,8 +211,8 @@ def test_holes_that_leave_the_mass_open_are_alike_by_their_angles(mirrored: bool
     assert not _same_options(first, 0.0, [(None, 90.0 + side * 50.0), (None, 91.0 + side * 10.0)], 90.0, mirrored)
     # what rounding leaves is no difference, a ten-thousandth of a degree is one
     for off, same in ((1e-10, True), (1e-4, False)):
-        other = [(None, 90.0 + side * 50.0), (None, 90.0 + side * 10.0 + off)]
-        assert _same_options(first, 0.0, other, 90.0, mirrored) == same
+        values = [(None, 90.0 + side * 50.0), (None, 90.0 + side * 10.0 + off)]
+        assert _same_options(first, 0.0, values, 90.0, mirrored) == same
 
 
 def test_masses_that_leave_the_angle_open_are_alike_in_any_order() -> None:

@@ -12,57 +12,57 @@ from optimizer.optimize import optimize
 from schemas.answer.answers import Certificate, OptimizeAnswer
 from schemas.front.pareto import ParetoRequest
 from schemas.request.requests import AnalyzeRequest, OptimizeRequest
-from tests.optimize.whole_turn import ALONE, asked, inline_six, one_throw
+from tests.optimize.whole_turn import ALONE, inline_six, request_of, single_throw
 from tests.pairs.asking import body_of
 
 
 def answered(machine: dict[str, Any], **objective: Any) -> tuple[OptimizeAnswer, Certificate]:
-    found = optimize(asked(machine, **objective))
-    assert found.status == "optimal", found.status_reason
-    assert found.certificate is not None
-    return found, found.certificate
+    answer = optimize(request_of(machine, **objective))
+    assert answer.status == "optimal", answer.status_reason
+    assert answer.certificate is not None
+    return answer, answer.certificate
 
 
 @pytest.mark.parametrize(("rod", "radius", "share"), [(None, 0.25, 0.5), (3.0, 0.346038, 0.661)])
 def test_one_throw_between_two_bearings(rod: float | None, radius: float, share: float) -> None:
     """Analytic: m_rec/4 on each bearing with (m_rot + m_rec/2)/2 on each web; published for a ratio of 1/3."""
-    found, proof = answered(one_throw(rod), bearing_weight=1, **ALONE)
+    answer, proof = answered(single_throw(rod), bearing_weight=1, **ALONE)
     assert proof.objective == pytest.approx(radius, abs=2.5e-6)
     assert proof.objective_without_counterweights == pytest.approx(1.0 if rod is None else 1.0 + 1.0 / 6.0, rel=1e-6)
-    for counterweight in found.counterweights:
+    for counterweight in answer.counterweights:
         assert counterweight.mass_kg == pytest.approx((1.0 + share) / 2, abs=2e-3)
         assert counterweight.angle_deg == pytest.approx(180.0, abs=0.1)
     assert proof.lower_bound is not None
     assert proof.lower_bound <= radius + 1e-6
     assert proof.cuts is not None
     assert proof.rounds is not None
-    assert found.main_bearings is not None
+    assert answer.main_bearings is not None
 
 
 def test_a_web_without_a_limit_beside_others_that_have_one() -> None:
     """Analytic: as where no web has one, as each needs no more; what it could be of use is told of that web alone."""
-    machine = one_throw(None)
+    machine = single_throw(None)
     for web, most in zip(machine["webs"], (9.0, None), strict=True):
         web["max_mass_kg"] = most
-    found, proof = answered(machine, bearing_weight=1, **ALONE)
+    answer, proof = answered(machine, bearing_weight=1, **ALONE)
     assert proof.objective == pytest.approx(0.25, abs=2.5e-6)
     (limit,) = proof.implied_max_mass_kg.items()
     assert limit[0] == machine["webs"][1]["name"]
-    assert found.counterweights[1].mass_kg < limit[1] < np.inf
+    assert answer.counterweights[1].mass_kg < limit[1] < np.inf
 
 
 def test_one_throw_shakes_with_all_orders() -> None:
     """Published in the mathematics of this project: lam 0.3, a web takes the single's 1.3 down to .6964692."""
-    machine = one_throw(1.0 / 0.3)
+    machine = single_throw(1.0 / 0.3)
     machine["throws"][0]["rotating_mass_kg"] = 0.0
     machine["webs"] = [{"name": "w", "position_m": 0.0, "counterweight_radius_m": 1.0, "max_mass_kg": 9.0}]
     del machine["bearings"]
-    found, proof = answered(machine, orders="all", moment_weight=0, least_mass=False)
+    answer, proof = answered(machine, orders="all", moment_weight=0, least_mass=False)
     assert proof.objective_without_counterweights == pytest.approx(1.3, rel=1e-9)
     assert proof.objective == pytest.approx(0.6964692, abs=2e-6)
-    assert found.counterweights[0].mass_kg == pytest.approx(0.603531, abs=1e-3)
-    assert found.main_bearings is None
-    turn = found.residual.turn
+    assert answer.counterweights[0].mass_kg == pytest.approx(0.603531, abs=1e-3)
+    assert answer.main_bearings is None
+    turn = answer.residual.turn
     assert turn is not None
     assert turn.after is not None
     assert turn.before.force_peak_N == pytest.approx(1.3, rel=1e-8)
@@ -77,15 +77,15 @@ def test_one_throw_shakes_with_all_orders() -> None:
 
 def test_bearings_of_an_inline_six() -> None:
     """Regression, and published in the mathematics of this project for such a machine: 43.6 kN to 8.360 kN."""
-    found, proof = answered(inline_six(), bearing_weight=1, **ALONE)
+    answer, proof = answered(inline_six(), bearing_weight=1, **ALONE)
     assert proof.objective_without_counterweights == pytest.approx(43.6e3, abs=50)
     assert proof.objective == pytest.approx(8.360e3, abs=1)
     assert proof.relative_gap is not None
     assert proof.relative_gap <= 1e-6
     assert proof.mass_relative_gap is not None
     assert proof.mass_relative_gap <= 1e-4
-    assert found.main_bearings is not None
-    sampled = [bearing.after.peak_N for bearing in found.main_bearings.bearings if bearing.after is not None]
+    assert answer.main_bearings is not None
+    sampled = [bearing.after.peak_N for bearing in answer.main_bearings.bearings if bearing.after is not None]
     assert max(sampled) <= proof.objective * (1 + 1e-9)
     terms = proof.multipliers.objective.terms
     assert {term.response for term in terms} <= {f"bearing:{k}" for k in range(7)}
@@ -95,11 +95,13 @@ def test_bearings_of_an_inline_six() -> None:
 
 def test_specific_loads_are_loads_over_areas() -> None:
     _, plain = answered(inline_six(), bearing_weight=1, least_mass=False, **ALONE)
-    found, specific = answered(inline_six(), bearing_weight=1, bearing_measure="specific", least_mass=False, **ALONE)
+    answer, specific = answered(inline_six(), bearing_weight=1, bearing_measure="specific", least_mass=False, **ALONE)
     assert specific.objective == pytest.approx(plain.objective / (0.06 * 0.02), rel=2e-6)
-    assert found.main_bearings is not None
-    told = [each.after.specific_load_Pa for each in found.main_bearings.bearings if each.after is not None]
-    assert max(load for load in told if load is not None) == pytest.approx(specific.objective, rel=1e-8)
+    assert answer.main_bearings is not None
+    specific_loads_Pa = [
+        bearing.after.specific_load_Pa for bearing in answer.main_bearings.bearings if bearing.after is not None
+    ]
+    assert max(load for load in specific_loads_Pa if load is not None) == pytest.approx(specific.objective, rel=1e-8)
 
 
 def test_root_mean_squares_are_smaller_than_peaks() -> None:
@@ -110,11 +112,11 @@ def test_root_mean_squares_are_smaller_than_peaks() -> None:
 
 @pytest.mark.parametrize("rod", [1.01, 1.0001])
 def test_root_mean_squares_of_rods_hardly_longer_than_the_crank_are_proven(rod: float) -> None:
-    found, proof = answered(one_throw(rod), bearing_weight=1, bearing_measure="rms", least_mass=False, **ALONE)
-    assert found.main_bearings is not None
-    told = max(each.after.rms_N for each in found.main_bearings.bearings if each.after is not None)
+    answer, proof = answered(single_throw(rod), bearing_weight=1, bearing_measure="rms", least_mass=False, **ALONE)
+    assert answer.main_bearings is not None
+    rmse_N = max(bearing.after.rms_N for bearing in answer.main_bearings.bearings if bearing.after is not None)
     assert proof.lower_bound is not None
-    assert proof.lower_bound <= told <= proof.objective
+    assert proof.lower_bound <= rmse_N <= proof.objective
 
 
 def test_force_and_bearings_are_weighed_together() -> None:
@@ -128,26 +130,26 @@ def test_force_and_bearings_are_weighed_together() -> None:
 
 
 def test_a_ceiling_on_bearings_is_kept_and_touched() -> None:
-    found, proof = answered(inline_six(), bearing_ceiling_N=12e3)
-    assert found.active_limits == ("bearing_ceiling",)
-    assert found.total_mass_kg is not None
-    assert found.total_mass_kg > 0
-    assert found.main_bearings is not None
-    assert all(each.after is not None and each.after.peak_N <= 12e3 for each in found.main_bearings.bearings)
+    answer, proof = answered(inline_six(), bearing_ceiling_N=12e3)
+    assert answer.active_limits == ("bearing_ceiling",)
+    assert answer.total_mass_kg is not None
+    assert answer.total_mass_kg > 0
+    assert answer.main_bearings is not None
+    assert all(bearing.after is not None and bearing.after.peak_N <= 12e3 for bearing in answer.main_bearings.bearings)
     assert proof.multipliers.mass is not None
     assert any(ceiling.x or ceiling.y for ceiling in proof.multipliers.mass.ceilings)
     # a looser ceiling takes less iron
     looser, _ = answered(inline_six(), bearing_ceiling_N=20e3)
     assert looser.total_mass_kg is not None
-    assert looser.total_mass_kg < found.total_mass_kg
+    assert looser.total_mass_kg < answer.total_mass_kg
 
 
 @pytest.mark.parametrize("field", ["bearing_ceiling_N", "specific_load_ceiling_Pa"])
 def test_ceilings_below_the_floor_are_out_of_reach_and_say_by_how_much(field: str) -> None:
     area = 1.0 if field == "bearing_ceiling_N" else 0.06 * 0.02
-    found = optimize(asked(inline_six(), **{field: 6e3 / area}))
-    assert found.status == "infeasible"
-    why = found.infeasibility
+    answer = optimize(request_of(inline_six(), **{field: 6e3 / area}))
+    assert answer.status == "infeasible"
+    why = answer.infeasibility
     assert why is not None
     assert why.conflict == (field,)
     (middle,) = why.smallest
@@ -164,38 +166,38 @@ def test_machines_without_webs_are_answered() -> None:
     # analytic: nothing can be fitted; both are brackets of the same peak
     assert proof.objective == pytest.approx(proof.objective_without_counterweights, rel=1e-9)
     assert answered(machine, bearing_ceiling_N=1e6)[1].objective == 0.0
-    assert optimize(asked(machine, bearing_ceiling_N=1e3)).status == "infeasible"
+    assert optimize(request_of(machine, bearing_ceiling_N=1e3)).status == "infeasible"
 
 
 def test_bending_has_a_weight_and_a_ceiling() -> None:
     machine = inline_six()
     _, smallest = answered(machine, bending_weight=1, least_mass=False, **ALONE)
     assert 0 < smallest.objective < 0.5 * smallest.objective_without_counterweights
-    found, _ = answered(machine, bending_ceiling_Nm=1.5 * smallest.objective)
-    assert found.active_limits == ("bending_ceiling",)
-    assert found.main_bearings is not None
-    assert found.main_bearings.bending.after_Nm is not None
-    assert max(found.main_bearings.bending.after_Nm) <= 1.5 * smallest.objective * (1 + 1e-9)
+    answer, _ = answered(machine, bending_ceiling_Nm=1.5 * smallest.objective)
+    assert answer.active_limits == ("bending_ceiling",)
+    assert answer.main_bearings is not None
+    assert answer.main_bearings.bending.after_Nm is not None
+    assert max(answer.main_bearings.bending.after_Nm) <= 1.5 * smallest.objective * (1 + 1e-9)
 
 
 def test_goals_are_met_one_after_the_other() -> None:
     order = [{"goal": "external", "allowance": 0.001}, {"goal": "bearings"}, {"goal": "mass"}]
-    found, proof = answered(inline_six(), bearing_weight=1, priorities=order)
+    answer, proof = answered(inline_six(), bearing_weight=1, priorities=order)
     (external,) = proof.goals
     assert external.goal == "external"
     assert external.value <= external.limit
     assert proof.objective == pytest.approx(8.360e3, abs=1)
-    assert found.residual.after is not None
-    assert found.residual.after.force.peak_N <= external.limit * (1 + 1e-9)
+    assert answer.residual.after is not None
+    assert answer.residual.after.force.peak_N <= external.limit * (1 + 1e-9)
 
 
 def test_continuous_shafts_carry_otherwise() -> None:
-    request = asked(inline_six(), bearing_weight=1, least_mass=False, **ALONE)
+    request = request_of(inline_six(), bearing_weight=1, least_mass=False, **ALONE)
     continuous = request.model_copy(update={"fidelity": request.fidelity.model_copy(update={"shaft": "continuous"})})
-    one, other = optimize(request).certificate, optimize(continuous).certificate
-    assert one is not None
-    assert other is not None
-    assert abs(one.objective - other.objective) > 0.05 * one.objective
+    certificate, second_certificate = optimize(request).certificate, optimize(continuous).certificate
+    assert certificate is not None
+    assert second_certificate is not None
+    assert abs(certificate.objective - second_certificate.objective) > 0.05 * certificate.objective
 
 
 @pytest.mark.parametrize(
@@ -214,7 +216,7 @@ def test_continuous_shafts_carry_otherwise() -> None:
 )
 def test_objectives_that_contradict_themselves_name_the_field(objective: dict[str, Any], field: str) -> None:
     with pytest.raises(ValidationError) as refused:
-        asked(inline_six(), **objective)
+        request_of(inline_six(), **objective)
     assert field in {str(part) for error in refused.value.errors() for part in (*error["loc"], error["msg"])} or any(
         field in str(error) for error in refused.value.errors()
     )
@@ -224,22 +226,22 @@ def test_what_a_machine_lacks_is_named() -> None:
     machine = inline_six()
     del machine["bearings"][2]["length_m"]
     with pytest.raises(MissingInput) as missing:
-        optimize(asked(machine, specific_load_ceiling_Pa=1e7))
+        optimize(request_of(machine, specific_load_ceiling_Pa=1e7))
     assert [problem.path for problem in missing.value.problems] == [("machine", "bearings", 2, "length_m")]
     del machine["bearings"]
     with pytest.raises(MissingInput) as missing:
-        optimize(asked(machine, bearing_weight=1))
+        optimize(request_of(machine, bearing_weight=1))
     (problem,) = missing.value.problems
     assert problem.path == ("machine", "bearings")
     assert problem.message == "bearing loads need the bearings; needed by objective.bearing_weight"
     with pytest.raises(MissingInput) as missing:
-        optimize(asked(machine, bending_ceiling_Nm=5.0))
+        optimize(request_of(machine, bending_ceiling_Nm=5.0))
     (problem,) = missing.value.problems
     assert problem.path == ("machine", "bearings")
     assert problem.message.startswith("a free shaft bends in a known way only where its loads balance at every angle")
     del machine["throws"][0]["rows"][0]["connecting_rod"]
     with pytest.raises(MissingInput) as missing:
-        optimize(asked(machine, orders="all"))
+        optimize(request_of(machine, orders="all"))
     (problem,) = missing.value.problems
     assert problem.path == ("machine", "throws", 0, "rows", 0, "connecting_rod")
     assert problem.message.endswith("needed by objective.orders")
@@ -255,17 +257,21 @@ def test_fronts_refuse_the_whole_turn() -> None:
 def test_brute_force_never_beats_the_certificate(seed: int) -> None:
     """Independent: peaks of random counterweights near the answer, at 0.1 degree, by the analysis of samples."""
     machine = inline_six()
-    found, proof = answered(machine, bearing_weight=1, least_mass=False, **ALONE)
+    answer, proof = answered(machine, bearing_weight=1, least_mass=False, **ALONE)
     rng = np.random.default_rng(seed)
     fitted = [
-        {"web": each.web, "mass_kg": each.mass_kg * rng.uniform(0.9, 1.1), "angle_deg": each.angle_deg + rng.normal()}
-        for each in found.counterweights
+        {
+            "web": counterweight.web,
+            "mass_kg": counterweight.mass_kg * rng.uniform(0.9, 1.1),
+            "angle_deg": counterweight.angle_deg + rng.normal(),
+        }
+        for counterweight in answer.counterweights
     ]
 
     body = {"machine": machine, "counterweights": fitted, "outputs": ["main_bearings"], "angles": {"step_deg": 0.1}}
     loads = analyze(AnalyzeRequest.model_validate(body)).main_bearings
     assert loads is not None
-    peak = max(each.after.peak_N for each in loads.bearings if each.after is not None)
+    peak = max(bearing.after.peak_N for bearing in loads.bearings if bearing.after is not None)
     assert proof.lower_bound is not None
     # what 0.1 degree may miss of the curve
     assert proof.lower_bound <= peak * (1 + 1e-5)
@@ -273,12 +279,12 @@ def test_brute_force_never_beats_the_certificate(seed: int) -> None:
 
 @pytest.mark.parametrize("objective", [{"bearing_weight": 1}, {"bearing_ceiling_N": 12e3}])
 def test_a_search_that_its_time_limit_ends_says_so(objective: dict[str, Any]) -> None:
-    request = asked(inline_six(), **objective)
+    request = request_of(inline_six(), **objective)
     accuracy = request.accuracy.model_copy(update={"time_limit_s": 1e-9, "relative_gap": 1e-12})
-    found = optimize(request.model_copy(update={"accuracy": accuracy}))
-    assert found.status == "inaccurate"
-    assert found.status_reason.startswith("The time limit of 1e-09 s ended the search. ")
-    proof = found.certificate
+    answer = optimize(request.model_copy(update={"accuracy": accuracy}))
+    assert answer.status == "inaccurate"
+    assert answer.status_reason.startswith("The time limit of 1e-09 s ended the search. ")
+    proof = answer.certificate
     assert proof is not None
     assert proof.lower_bound is not None
     assert proof.lower_bound <= proof.objective

@@ -28,7 +28,7 @@ def inline_six() -> dict[str, Any]:
     return machine
 
 
-def one_throw(rod_length_m: float | None = None) -> dict[str, Any]:
+def single_throw(rod_length_m: float | None = None) -> dict[str, Any]:
     """m r = 1 for the rotating and the reciprocating mass, two webs in the planes of two bearings, 1 rad/s."""
     rod = {"length_m": rod_length_m, "mass_kg": 0.0, "reciprocating_share": 0.3}
     row = {"axis_deg": 0, "reciprocating_mass_kg": 1.0, "connecting_rod": rod}
@@ -45,6 +45,6 @@ def one_throw(rod_length_m: float | None = None) -> dict[str, Any]:
     }
 
 
-def asked(machine: dict[str, Any], **objective: Any) -> OptimizeRequest:
+def request_of(machine: dict[str, Any], **objective: Any) -> OptimizeRequest:
     """A request with an objective; few samples, as no figure depends on them."""
     return OptimizeRequest.model_validate({"machine": machine, "objective": objective, "angles": {"step_deg": 30}})

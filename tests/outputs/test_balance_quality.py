@@ -42,15 +42,15 @@ def machine(**rest: Any) -> dict[str, Any]:
 
 def test_permissible_unbalance() -> None:
     """Published: 9549 G m / n in g mm (ISO 21940-11); G 6.3, 200 kg, 3000 rpm."""
-    found = permissible_unbalance(6.3e-3, 200.0, 3000.0 * np.pi / 30)
-    assert found * 1e6 == pytest.approx(9549.3 * 6.3 * 200.0 / 3000.0, rel=1e-5)
+    unbalance = permissible_unbalance(6.3e-3, 200.0, 3000.0 * np.pi / 30)
+    assert unbalance * 1e6 == pytest.approx(9549.3 * 6.3 * 200.0 / 3000.0, rel=1e-5)
 
 
 @pytest.mark.parametrize(("centre", "share"), [(0.0, 0.5), (0.2, 0.3), (-0.1, 0.625), (0.39, 0.3), (-0.39, 0.7)])
 def test_planes_share_it_by_their_distances(centre: float, share: float) -> None:
     """Analytic; far off the middle the standard's 0.3 and 0.7 hold."""
-    found = plane_shares(centre, -0.4, 0.4)
-    assert found == (pytest.approx(share), pytest.approx(1.0 - share))
+    shares = plane_shares(centre, -0.4, 0.4)
+    assert shares == (pytest.approx(share), pytest.approx(1.0 - share))
     assert plane_shares(-centre, 0.4, -0.4) == (pytest.approx(share), pytest.approx(1.0 - share))
 
 
@@ -64,14 +64,14 @@ def test_two_planes_come_to_the_same() -> None:
 
 def test_a_crank_without_counterweights_deviates_by_all_of_it() -> None:
     """Analytic: (3 + 4/2) kg at 0.1 m in the plane of the centre of mass, half of it in each plane, 0.25 kg m."""
-    found = analyze(AnalyzeRequest.model_validate({"machine": machine()})).balance_quality
-    assert found is not None
-    assert found.permissible_kg_m == pytest.approx(6.3e-3 * 200.0 / OMEGA)
-    for plane in (found.before.plane_a, found.before.plane_b):
+    balance_quality = analyze(AnalyzeRequest.model_validate({"machine": machine()})).balance_quality
+    assert balance_quality is not None
+    assert balance_quality.permissible_kg_m == pytest.approx(6.3e-3 * 200.0 / OMEGA)
+    for plane in (balance_quality.before.plane_a, balance_quality.before.plane_b):
         assert plane.unbalance_kg_m == pytest.approx(0.25)
-        assert plane.permissible_kg_m == pytest.approx(0.5 * found.permissible_kg_m)
+        assert plane.permissible_kg_m == pytest.approx(0.5 * balance_quality.permissible_kg_m)
         assert plane.angle_deg == pytest.approx(30.0)
-    assert found.before.grade_mm_s == pytest.approx(1e3 * 0.25 * OMEGA / (0.5 * 200.0))
+    assert balance_quality.before.grade_mm_s == pytest.approx(1e3 * 0.25 * OMEGA / (0.5 * 200.0))
 
 
 def test_a_counterweight_that_is_off() -> None:
@@ -79,13 +79,13 @@ def test_a_counterweight_that_is_off() -> None:
     weights = [{"web": "a", "mass_kg": 2.52, "angle_deg": 210}, {"web": "b", "mass_kg": 2.5, "angle_deg": 210}]
     request = AnalyzeRequest.model_validate({"machine": machine(), "counterweights": weights})
     answer = analyze(request)
-    found = answer.balance_quality
-    assert found is not None
-    assert found.after is not None
-    assert found.after.plane_a.unbalance_kg_m == pytest.approx(0.00125, rel=1e-6)
-    assert found.after.plane_b.unbalance_kg_m == pytest.approx(0.00075, rel=1e-6)
+    balance_quality = answer.balance_quality
+    assert balance_quality is not None
+    assert balance_quality.after is not None
+    assert balance_quality.after.plane_a.unbalance_kg_m == pytest.approx(0.00125, rel=1e-6)
+    assert balance_quality.after.plane_b.unbalance_kg_m == pytest.approx(0.00075, rel=1e-6)
     # the larger plane counts: 1.25, where both together would say 1
-    assert found.after.grade_mm_s == pytest.approx(1e3 * 0.00125 * OMEGA / 100.0, rel=1e-6)
+    assert balance_quality.after.grade_mm_s == pytest.approx(1e3 * 0.00125 * OMEGA / 100.0, rel=1e-6)
     assert "Balance quality" in [chapter.title for chapter in analyzed(request, answer)]
 
 
@@ -111,10 +111,12 @@ def test_planes_stand_on_both_sides(centre: float) -> None:
 
 def test_the_reference_plane_is_no_matter() -> None:
     """Metamorphic: moments about another plane are of the same unbalances."""
-    one, other = (
+    balance_quality, second_balance_quality = (
         analyze(AnalyzeRequest.model_validate({"machine": machine(reference_plane_m=plane)})).balance_quality
         for plane in (0.1, -3.0)
     )
-    assert one is not None
-    assert other is not None
-    assert one.before.plane_a.unbalance_kg_m == pytest.approx(other.before.plane_a.unbalance_kg_m, rel=1e-9)
+    assert balance_quality is not None
+    assert second_balance_quality is not None
+    assert balance_quality.before.plane_a.unbalance_kg_m == pytest.approx(
+        second_balance_quality.before.plane_a.unbalance_kg_m, rel=1e-9
+    )

@@ -15,8 +15,8 @@ from tests.analyze.driven import random_driven
 from tests.builders import RADIUS, inline, machine, row, throw, web
 
 
-def _optimized(made: ReciprocatingMachine, **rest: Any) -> OptimizeAnswer:
-    return optimize(OptimizeRequest(machine=made, **rest))
+def _optimized(design: ReciprocatingMachine, **rest: Any) -> OptimizeAnswer:
+    return optimize(OptimizeRequest(machine=design, **rest))
 
 
 def _codes(answer: OptimizeAnswer | AnalyzeAnswer) -> list[str]:
@@ -32,7 +32,7 @@ def test_an_inline_four_is_told_of_its_second_order_and_its_bare_crank() -> None
     # analytic: 4 m r w^2 A_2 with A_2 = 0.2 + 0.2^3/4 + 15 0.2^5/128 + ..., and nothing of first order
     answer = _optimized(_four())
     assert _codes(answer) == ["second_order_remains", "bare_crank"]
-    assert [one.rate for one in answer.balance_rate] == pytest.approx([0.0] * 4, abs=1e-6)
+    assert [rate.rate for rate in answer.balance_rate] == pytest.approx([0.0] * 4, abs=1e-6)
     first, second = answer.residual.orders.after
     assert first.force.peak_N == answer.residual.after.force.peak_N
     assert second.force.peak_N == pytest.approx(
@@ -61,23 +61,23 @@ def test_a_balanced_crank_is_not_told_that_it_is_bare() -> None:
 def test_a_horizontal_machine_is_told_that_it_will_jump() -> None:
     # analytic: the half of the reciprocating mass that is balanced comes back across
     answer = _optimized(machine(throw(0.0, row(0.0), rotating_kg=1.0), webs=[web("a", 0.0)]))
-    told = [caution for caution in answer.warnings if caution.code == "component_grows"]
-    assert [caution.pointer for caution in told] == ["/objective/direction_weights/y"]
+    cautions = [caution for caution in answer.warnings if caution.code == "component_grows"]
+    assert [caution.pointer for caution in cautions] == ["/objective/direction_weights/y"]
 
 
 def test_a_far_web_decides_the_span_only_where_the_weight_is_not_given() -> None:
-    made = machine(
+    design = machine(
         throw(0.0, rotating_kg=5.0), throw(90.0, z=1.0, rotating_kg=5.0), webs=[web("near", 0.0), web("flywheel", 4.0)]
     )
-    assert "span_of_a_far_web" in _codes(_optimized(made))
-    (told,) = (caution for caution in _optimized(made).warnings if caution.code == "span_of_a_far_web")
-    assert told.pointer == "/machine/webs/1/position_m"
-    assert "span_of_a_far_web" not in _codes(_optimized(made, objective={"moment_weight": 1.0}))
+    assert "span_of_a_far_web" in _codes(_optimized(design))
+    (actual_caution,) = (caution for caution in _optimized(design).warnings if caution.code == "span_of_a_far_web")
+    assert actual_caution.pointer == "/machine/webs/1/position_m"
+    assert "span_of_a_far_web" not in _codes(_optimized(design, objective={"moment_weight": 1.0}))
 
 
 def test_bearing_loads_that_counterweights_raise_are_told() -> None:
     # analytic: a counterweight in line with its crank adds to what the bearings carry
-    made = machine(
+    design = machine(
         throw(0.0, rotating_kg=5.0),
         webs=[web("a", -0.1), web("b", 0.1)],
         bearings=[{"name": "A", "position_m": -0.5}, {"name": "B", "position_m": 0.5}],
@@ -85,8 +85,8 @@ def test_bearing_loads_that_counterweights_raise_are_told() -> None:
 
     def loaded(angle_deg: float) -> AnalyzeAnswer:
         fitted = [{"web": name, "mass_kg": 1.0, "angle_deg": angle_deg} for name in ("a", "b")]
-        asked = {"machine": made.model_dump(), "counterweights": fitted, "outputs": ["main_bearings"]}
-        return analyze(AnalyzeRequest.model_validate(asked))
+        body = {"machine": design.model_dump(), "counterweights": fitted, "outputs": ["main_bearings"]}
+        return analyze(AnalyzeRequest.model_validate(body))
 
     # twice each: above the bare crank, and above the customary one, which carries nothing
     assert _codes(loaded(0.0)) == ["bearing_load_grows"] * 2 + ["bending_moment_grows"] * 2
@@ -95,9 +95,9 @@ def test_bearing_loads_that_counterweights_raise_are_told() -> None:
 
 def test_figures_of_warnings_have_no_exponent() -> None:
     # analytic: half of 10 kg at 0.1 m and 50 rad/s comes back across, here ten thousand times as heavy
-    made = machine(throw(0.0, row(0.0, mass_kg=1e5)), webs=[web("a", 0.0, max_mass_kg=1e6)])
-    (told,) = (caution for caution in _optimized(made).warnings if caution.code == "component_grows")
-    assert str(round(1e5 / 2 * RADIUS * 50.0**2)) in told.message
+    design = machine(throw(0.0, row(0.0, mass_kg=1e5)), webs=[web("a", 0.0, max_mass_kg=1e6)])
+    (actual_caution,) = (caution for caution in _optimized(design).warnings if caution.code == "component_grows")
+    assert str(round(1e5 / 2 * RADIUS * 50.0**2)) in actual_caution.message
 
 
 def test_a_ceiling_of_specific_loads_looks_at_the_bearings_too() -> None:
@@ -107,12 +107,12 @@ def test_a_ceiling_of_specific_loads_looks_at_the_bearings_too() -> None:
 
 
 def test_rows_without_cylinders_are_told_where_gas_would_count() -> None:
-    made = machine(throw(0.0, row(0.0)), throw(180.0, row(0.0), z=1.0))
-    asked = {"machine": made.model_dump(), "outputs": ["torque"]}
-    (told,) = analyze(AnalyzeRequest.model_validate(asked)).warnings
-    assert (told.code, told.pointer) == ("no_gas", "/machine/throws/0/rows/0/cylinder")
-    assert told.message.startswith("2 rows")
-    assert analyze(AnalyzeRequest.model_validate({**asked, "outputs": ["kinematics"]})).warnings == ()
+    design = machine(throw(0.0, row(0.0)), throw(180.0, row(0.0), z=1.0))
+    body = {"machine": design.model_dump(), "outputs": ["torque"]}
+    (warning,) = analyze(AnalyzeRequest.model_validate(body)).warnings
+    assert (warning.code, warning.pointer) == ("no_gas", "/machine/throws/0/rows/0/cylinder")
+    assert warning.message.startswith("2 rows")
+    assert analyze(AnalyzeRequest.model_validate({**body, "outputs": ["kinematics"]})).warnings == ()
 
 
 TURNING = ["rod_loads", "torque", "main_bearings", "piston_force", "overturning"]
@@ -120,25 +120,25 @@ TURNING = ["rod_loads", "torque", "main_bearings", "piston_force", "overturning"
 
 def test_peaks_that_are_left_open_are_told_and_those_that_are_closed_are_not(monkeypatch: pytest.MonkeyPatch) -> None:
     # analytic: where a tenth will do, brackets stay as wide as the first pieces leave them
-    asked = AnalyzeRequest.model_validate({"machine": random_driven(3), "outputs": TURNING})
-    assert "peak_not_closed" not in _codes(analyze(asked))
+    body = AnalyzeRequest.model_validate({"machine": random_driven(3), "outputs": TURNING})
+    assert "peak_not_closed" not in _codes(analyze(body))
     monkeypatch.setattr(peaks, "TOLERANCE", 0.1)
-    answer = analyze(asked)
-    told = [caution.message for caution in answer.warnings if caution.code == "peak_not_closed"]
-    assert {message.split()[3] for message in told} == set(TURNING)
+    answer = analyze(body)
+    messages = [caution.message for caution in answer.warnings if caution.code == "peak_not_closed"]
+    assert {message.split()[3] for message in messages} == set(TURNING)
     low, high = answer.torque.peak_bracket_Nm
     assert high > low * (1.0 + 1e-6)
-    said = next(message for message in told if "torque" in message)
-    assert [float(word) for word in said.split()[10:13:2]] == pytest.approx([low, high], rel=1e-6)
-    assert "e+" not in said
+    actual_message = next(message for message in messages if "torque" in message)
+    assert [float(word) for word in actual_message.split()[10:13:2]] == pytest.approx([low, high], rel=1e-6)
+    assert "e+" not in actual_message
 
 
 def test_a_peak_that_cancels_is_no_open_one() -> None:
     # analytic: opposed pistons in one plane load their pins alike and oppositely, and the bearings with rounding
     throws = [throw(angle, row(angle, length_m=1.0)) for angle in (33.0, 213.0)]
     bearings = [{"name": "A", "position_m": -1.0}, {"name": "B", "position_m": 4.0}]
-    made = machine(*throws, bearings=bearings)
-    answer = analyze(AnalyzeRequest.model_validate({"machine": made.model_dump(), "outputs": ["main_bearings"]}))
+    design = machine(*throws, bearings=bearings)
+    answer = analyze(AnalyzeRequest.model_validate({"machine": design.model_dump(), "outputs": ["main_bearings"]}))
     low, high = answer.main_bearings.bearings[0].before.peak_bracket_N
     assert high > low * (1.0 + 1e-6)
     assert _codes(answer) == ["no_gas"]

@@ -43,17 +43,17 @@ def test_what_rounding_left_outside_is_printed_inside(
     data = ReciprocatingMachine.model_validate(machine([throw(0.0, 0.0, [], rotating=1.0)], webs))
     within = limits(data)
     angle = np.array([centre % 360.0 + side * half + off, 17.0])
-    given = unbalance(np.full(2, share * most), angle, within.radius)
-    mass, printed = masses_and_angles(data, given, within)
+    actual_unbalance = unbalance(np.full(2, share * most), angle, within.radius)
+    mass, printed = masses_and_angles(data, actual_unbalance, within)
     assert np.all((mass >= 0) & (mass <= most))
     if mass[0] > 0:
         assert _off(printed[0], centre) <= Fraction(half) + ANGLE
     # next to where it was: across the edge by no more than it was outside
     again = unbalance(mass, printed, within.radius)
-    assert np.all(np.abs(again - given) <= (abs(np.deg2rad(off)) + 1e-13) * np.abs(given))
+    assert np.all(np.abs(again - actual_unbalance) <= (abs(np.deg2rad(off)) + 1e-13) * np.abs(actual_unbalance))
     assert 0 <= printed[0] < 360
     # of many machines the same
-    stacked = masses_and_angles(data, np.stack([given, given]), within)
+    stacked = masses_and_angles(data, np.stack([actual_unbalance, actual_unbalance]), within)
     assert np.array_equal(stacked[0], [mass, mass])
     assert np.array_equal(stacked[1], [printed, printed])
 
@@ -85,10 +85,15 @@ def _fitted(own: int | None, **more: Any) -> tuple[Counterweight, ...]:
 def test_counterweights_say_whose_they_are_and_stand_from_that_crank() -> None:
     # analytic
     nearest, named = _fitted(None), _fitted(1)
-    assert [one.throw for one in nearest] == [0, None, 1, 1]
-    assert [one.angle_from_crank_deg for one in nearest] == [110.0, None, 0.0, None]
+    assert [counterweight.throw for counterweight in nearest] == [0, None, 1, 1]
+    assert [counterweight.angle_from_crank_deg for counterweight in nearest] == [110.0, None, 0.0, None]
     assert (named[0].throw, named[0].angle_from_crank_deg) == (1, 0.0)
-    assert [(one.position_m, one.radius_m) for one in nearest] == [(0.1, 0.25), (0.5, 0.25), (0.9, 0.25), (0.95, 0.25)]
+    assert [(counterweight.position_m, counterweight.radius_m) for counterweight in nearest] == [
+        (0.1, 0.25),
+        (0.5, 0.25),
+        (0.9, 0.25),
+        (0.95, 0.25),
+    ]
 
 
 def test_what_holds_a_counterweight_counts_with_the_overspeed() -> None:
@@ -118,4 +123,4 @@ def test_a_scroll_has_no_throws() -> None:
     del body["webs"][0]["throw"]
     data = ScrollMachine.model_validate(body)
     none = np.zeros(len(data.webs))
-    assert {one.throw for one in counterweights(data, none, none)} == {None}
+    assert {counterweight.throw for counterweight in counterweights(data, none, none)} == {None}

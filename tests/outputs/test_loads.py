@@ -27,9 +27,9 @@ def answer(outputs: tuple[str, ...] = ("loads", "torque", "rod_loads"), **machin
     return analyze(AnalyzeRequest.model_validate(request))
 
 
-def loads_of(found: AnalyzeAnswer) -> Loads:
-    assert found.loads is not None
-    return found.loads
+def loads_of(analysis: AnalyzeAnswer) -> Loads:
+    assert analysis.loads is not None
+    return analysis.loads
 
 
 @cache
@@ -54,11 +54,13 @@ def test_gas_forces_at_the_dead_centres_published() -> None:
 
 def test_masses_published() -> None:
     """303.60 and 277.53 kg; 0.7 of each rod turns, with 12 kg of the throw."""
-    found = loads_of(both())
-    assert [row.reciprocating_mass_kg for row in found.rows] == pytest.approx([303.60, 277.53], abs=5e-3)
-    assert [row.rod_rotating_mass_kg for row in found.rows] == pytest.approx([0.7 * 86.025] * 2)
-    assert [throw.rotating_mass_kg for throw in found.throws] == pytest.approx([12.0 + 0.7 * 86.025] * 2)
-    assert sum(one.weight_N for one in found.bearing_weights) == pytest.approx(2 * (12.0 + 0.7 * 86.025) * GRAVITY)
+    loads = loads_of(both())
+    assert [row.reciprocating_mass_kg for row in loads.rows] == pytest.approx([303.60, 277.53], abs=5e-3)
+    assert [row.rod_rotating_mass_kg for row in loads.rows] == pytest.approx([0.7 * 86.025] * 2)
+    assert [throw.rotating_mass_kg for throw in loads.throws] == pytest.approx([12.0 + 0.7 * 86.025] * 2)
+    assert sum(bearing_weight.weight_N for bearing_weight in loads.bearing_weights) == pytest.approx(
+        2 * (12.0 + 0.7 * 86.025) * GRAVITY
+    )
 
 
 def test_piston_rod_covers_and_frame_analytic() -> None:
@@ -77,16 +79,16 @@ def test_piston_rod_covers_and_frame_analytic() -> None:
 
 def test_base_and_turning_masses_analytic() -> None:
     """J eps = driver less torque; over a turn the speed comes back, and its range is the irregularity asked for."""
-    found = loads_of(answer(outputs=("loads", "torque", "flywheel")))
+    loads = loads_of(answer(outputs=("loads", "torque", "flywheel")))
     whole = answer()
     assert whole.torque is not None
-    np.testing.assert_allclose(found.shared_base_Nm, np.array(whole.torque.torque_Nm) - whole.torque.mean_torque_Nm)
-    assert found.driver_Nm == whole.torque.mean_torque_Nm
-    assert found.own_base_peak_Nm == whole.torque.peak_Nm
-    assert found.angular_acceleration_rad_s2 is not None
-    assert abs(np.mean(found.angular_acceleration_rad_s2)) < 2e-2 * np.max(np.abs(found.angular_acceleration_rad_s2))
+    np.testing.assert_allclose(loads.shared_base_Nm, np.array(whole.torque.torque_Nm) - whole.torque.mean_torque_Nm)
+    assert loads.driver_Nm == whole.torque.mean_torque_Nm
+    assert loads.own_base_peak_Nm == whole.torque.peak_Nm
+    assert loads.angular_acceleration_rad_s2 is not None
+    assert abs(np.mean(loads.angular_acceleration_rad_s2)) < 2e-2 * np.max(np.abs(loads.angular_acceleration_rad_s2))
     omega = 500.0 * np.pi / 30.0
-    speed = np.cumsum(found.angular_acceleration_rad_s2) * np.deg2rad(5.0) / omega
+    speed = np.cumsum(loads.angular_acceleration_rad_s2) * np.deg2rad(5.0) / omega
     assert np.ptp(speed) / omega == pytest.approx(0.01, rel=0.05)
     assert loads_of(answer(flywheel=None)).angular_acceleration_rad_s2 is None
 
@@ -96,8 +98,8 @@ def test_one_of_two_opposed_crossheads_lifts_published() -> None:
     the other row.
     """
     shares = [row.guide.lifted_share for row in loads_of(both()).rows if row.guide]
-    other = answer(gravity_deg=270, rotation="cw")
-    reversed_ = [row.guide.lifted_share for row in loads_of(other).rows if row.guide]
+    analysis = answer(gravity_deg=270, rotation="cw")
+    reversed_ = [row.guide.lifted_share for row in loads_of(analysis).rows if row.guide]
     assert max(shares) > 0.5 > min(shares)
     assert np.argmax(shares) != np.argmax(reversed_)
     warned = [warning for warning in both().warnings if warning.code == "crosshead_lifts"]
@@ -127,8 +129,8 @@ def test_without_gas_only_inertia_loads() -> None:
     posted = json.loads(load("2d12"))["machine"]
     for throw in posted["throws"]:
         throw["rows"][0]["cylinder"] = None
-    found = loads_of(answer(throws=posted["throws"], friction=None))
-    for row in found.rows:
+    loads = loads_of(answer(throws=posted["throws"], friction=None))
+    for row in loads.rows:
         assert (row.covers, row.stop_at_outer_dead_centre_N, row.frame.amplitude_N) == ((), 0.0, 0.0)
         # analytic: m r omega^2 (1 + lambda) at the outer dead centre, which is a sample
         omega = 500.0 * np.pi / 30.0
@@ -142,20 +144,25 @@ def test_what_is_cut_from_a_plate_weighs_on_the_bearings(gravity: float | None) 
     body = body_of("twin", ("plates, segments",), 2.0)
     assert body is not None
     body = {**body, "machine": {**body["machine"], "gravity_deg": gravity}, "outputs": ["loads"]}
-    shown = optimized(body)
-    assert shown.loads is not None
+    optimum = optimized(body)
+    assert optimum.loads is not None
     plain = OptimizeRequest.model_validate({**body, "machine": {**body["machine"], "webs": []}})
     bare = optimize(plain).loads
     assert bare is not None
     vectors, bare_vectors = (
-        np.array([complex(one.x_N or 0.0, one.y_N or 0.0) if gravity else one.weight_N for one in each.bearing_weights])
-        for each in (shown.loads, bare)
+        np.array(
+            [
+                complex(bearing_weight.x_N or 0.0, bearing_weight.y_N or 0.0) if gravity else bearing_weight.weight_N
+                for bearing_weight in loads.bearing_weights
+            ]
+        )
+        for loads in (optimum.loads, bare)
     )
-    mass = sum(one.mass_kg for one in shown.counterweights)
+    mass = sum(counterweight.mass_kg for counterweight in optimum.counterweights)
     assert mass > 0
     assert abs(np.sum(vectors - bare_vectors)) == pytest.approx(mass * GRAVITY, rel=1e-9)
     speeds = {"path": "/machine/speed_rpm", "values": [body["machine"]["speed_rpm"]] * 2}
     sweep = SweepRequest.model_validate({"base": body, "axes": [speeds]})
     (first, *_) = result_table(rows(sweep, 0, sweep.total), result_schema(sweep, b"{}")).to_pylist()
-    for one in shown.loads.bearing_weights:
-        assert first[f"bearing_weight_N.{one.name}"] == pytest.approx(one.weight_N, rel=1e-9)
+    for weight in optimum.loads.bearing_weights:
+        assert first[f"bearing_weight_N.{weight.name}"] == pytest.approx(weight.weight_N, rel=1e-9)

@@ -36,9 +36,9 @@ def in_parts() -> dict[str, Any]:
 
 def loads(machine: dict[str, Any], **more: Any) -> Loads:
     request = {"machine": machine, "outputs": ["loads"], "angles": {"step_deg": 10}, **more}
-    found = analyze(AnalyzeRequest.model_validate(request)).loads
-    assert found is not None
-    return found
+    forces = analyze(AnalyzeRequest.model_validate(request)).loads
+    assert forces is not None
+    return forces
 
 
 def test_masses_of_a_row_from_its_parts_published() -> None:
@@ -54,13 +54,13 @@ def test_parts_are_optimised_as_their_sums_analytic() -> None:
     """The checker, which adds them up by itself, goes through both answers."""
     whole = copy.deepcopy(MACHINE)
     whole["throws"][0]["rotating_mass_kg"] += 4.0
-    ours, other = optimized({"machine": in_parts()}), optimized({"machine": whole})
+    ours, answer = optimized({"machine": in_parts()}), optimized({"machine": whole})
     assert ours.certificate is not None
-    assert other.certificate is not None
-    rest, same = (each.certificate.objective_without_counterweights for each in (ours, other))
+    assert answer.certificate is not None
+    rest, same = (optimum.certificate.objective_without_counterweights for optimum in (ours, answer))
     assert rest == pytest.approx(same, rel=1e-12)
-    assert ours.certificate.objective == pytest.approx(other.certificate.objective, abs=1e-5 * rest)
-    assert ours.total_mass_kg == pytest.approx(other.total_mass_kg, rel=1e-4)
+    assert ours.certificate.objective == pytest.approx(answer.certificate.objective, abs=1e-5 * rest)
+    assert ours.total_mass_kg == pytest.approx(answer.total_mass_kg, rel=1e-4)
 
 
 def test_weights_on_the_bearings_analytic() -> None:
@@ -86,19 +86,25 @@ def test_weights_on_the_bearings_analytic() -> None:
         "bearings": [{"name": "A", "position_m": 0}, {"name": "B", "position_m": 0.4}],
     }
     fitted = [{"web": "w", "mass_kg": 5, "angle_deg": 180}]
-    found = loads(machine, counterweights=fitted)
+    document = loads(machine, counterweights=fitted)
     at_b = [(8 + 6 + 3) * 0.1 / 0.4 + 5 * 0.2 / 0.4 + 20 * 0.6 / 0.4]
     at_a = [(8 + 6 + 3 + 5 + 20) - at_b[0]]
-    assert [one.y_N for one in found.bearing_weights] == pytest.approx([-GRAVITY * at_a[0], -GRAVITY * at_b[0]])
-    assert [one.x_N for one in found.bearing_weights] == pytest.approx([0.0, 0.0], abs=1e-9)
+    assert [bearing_weight.y_N for bearing_weight in document.bearing_weights] == pytest.approx(
+        [-GRAVITY * at_a[0], -GRAVITY * at_b[0]]
+    )
+    assert [bearing_weight.x_N for bearing_weight in document.bearing_weights] == pytest.approx([0.0, 0.0], abs=1e-9)
     # at A the flywheel lifts more than all the rest presses
-    assert [one.weight_N for one in found.bearing_weights] == pytest.approx([GRAVITY * abs(at_a[0]), GRAVITY * at_b[0]])
-    assert found.foundation_weight_N == pytest.approx(GRAVITY * (1000 + 8 + 6 + 3 + 5 + 20))
+    assert [bearing_weight.weight_N for bearing_weight in document.bearing_weights] == pytest.approx(
+        [GRAVITY * abs(at_a[0]), GRAVITY * at_b[0]]
+    )
+    assert document.foundation_weight_N == pytest.approx(GRAVITY * (1000 + 8 + 6 + 3 + 5 + 20))
     # a level row leans on its guide instead, and without a direction nothing is said of it
     lying = loads({**machine, "gravity_deg": 0.0}, counterweights=fitted)
-    assert sum(one.x_N or 0.0 for one in lying.bearing_weights) == pytest.approx(GRAVITY * (8 + 2 + 5 + 20))
+    assert sum(bearing_weight.x_N or 0.0 for bearing_weight in lying.bearing_weights) == pytest.approx(
+        GRAVITY * (8 + 2 + 5 + 20)
+    )
     unsaid = loads({**machine, "gravity_deg": None, "stationary_mass_kg": None}, counterweights=fitted)
-    assert [(one.x_N, one.y_N) for one in unsaid.bearing_weights] == [(None, None)] * 2
+    assert [(bearing_weight.x_N, bearing_weight.y_N) for bearing_weight in unsaid.bearing_weights] == [(None, None)] * 2
     assert unsaid.foundation_weight_N is None
 
 

@@ -25,40 +25,40 @@ def _answer(body: dict[str, Any]) -> Any:
 def test_answers_are_those_of_rows_one_by_one(count: int, style: str, monkeypatch: pytest.MonkeyPatch) -> None:
     # analytic: a row that is ahead has the same peaks, that much earlier
     body = equal_throws(count, style, count)
-    found = _answer(body)
+    answer = _answer(body)
     monkeypatch.setattr(whole_turn, "row_kinds", lambda *_: None)
     expected = _answer(body)
-    for loads, forces, wanted, other in zip(
-        *(found.rod_loads.rows, found.piston_force.rows),
+    for loads, forces, entry, part in zip(
+        *(answer.rod_loads.rows, answer.piston_force.rows),
         *(expected.rod_loads.rows, expected.piston_force.rows),
         strict=True,
     ):
-        assert loads.governing_case == wanted.governing_case
-        assert loads.peak_side_N == pytest.approx(wanted.peak_side_N, rel=1e-9)
-        assert forces.peak_tension_N == pytest.approx(other.peak_tension_N, rel=1e-9)
-        assert forces.peak_compression_N == pytest.approx(other.peak_compression_N, rel=1e-9)
-        for case, same in zip(loads.cases, wanted.cases, strict=True):
+        assert loads.governing_case == entry.governing_case
+        assert loads.peak_side_N == pytest.approx(entry.peak_side_N, rel=1e-9)
+        assert forces.peak_tension_N == pytest.approx(part.peak_tension_N, rel=1e-9)
+        assert forces.peak_compression_N == pytest.approx(part.peak_compression_N, rel=1e-9)
+        for case, same in zip(loads.cases, entry.cases, strict=True):
             assert case.tension_bracket_N == pytest.approx(same.tension_bracket_N, rel=1e-9)
             assert case.compression_bracket_N == pytest.approx(same.compression_bracket_N, rel=1e-9)
     for name in ("torque", "overturning"):
-        assert getattr(found, name).peak_Nm == pytest.approx(getattr(expected, name).peak_Nm, rel=1e-9)
-    for bearing, wanted in zip(found.main_bearings.bearings, expected.main_bearings.bearings, strict=True):
-        assert bearing.before.peak_N == pytest.approx(wanted.before.peak_N, rel=1e-9)
-        assert bearing.before.rms_N == pytest.approx(wanted.before.rms_N, rel=1e-10)
+        assert getattr(answer, name).peak_Nm == pytest.approx(getattr(expected, name).peak_Nm, rel=1e-9)
+    for bearing, support in zip(answer.main_bearings.bearings, expected.main_bearings.bearings, strict=True):
+        assert bearing.before.peak_N == pytest.approx(support.before.peak_N, rel=1e-9)
+        assert bearing.before.rms_N == pytest.approx(support.before.rms_N, rel=1e-10)
 
 
 def test_counterweights_without_mass_change_no_bearing_load() -> None:
     # analytic: what is nothing adds nothing, and is searched once
     body = equal_throws(1, "single", 2)
-    found = ask(body, "main_bearings", step_deg=30.0).main_bearings
-    assert found is not None
-    assert found.bending.after_Nm == found.bending.before_Nm
-    assert all(bearing.after == bearing.before for bearing in found.bearings)
+    main_bearings = ask(body, "main_bearings", step_deg=30.0).main_bearings
+    assert main_bearings is not None
+    assert main_bearings.bending.after_Nm == main_bearings.bending.before_Nm
+    assert all(bearing.after == bearing.before for bearing in main_bearings.bearings)
     fitted = [{"web": web["name"], "mass_kg": 20.0, "angle_deg": 30.0} for web in body["webs"]]
     laden = ask(body, "main_bearings", step_deg=30.0, counterweights=fitted).main_bearings
     assert laden is not None
     assert all(bearing.after != bearing.before for bearing in laden.bearings)
-    assert [bearing.before for bearing in laden.bearings] == [bearing.before for bearing in found.bearings]
+    assert [bearing.before for bearing in laden.bearings] == [bearing.before for bearing in main_bearings.bearings]
 
 
 @pytest.mark.parametrize("reading", ["piston", "rod", "rod_at_rest", "side"])

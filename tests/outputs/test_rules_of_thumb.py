@@ -35,9 +35,9 @@ def pair(co: complex, counter: complex) -> Phasors:
 )
 def test_a_single_row(axis_deg: float, shares: tuple[float, ...]) -> None:
     """k F0 across and (1 - k) F0 along, with 2 m_np r_np = k m_s r (seed 002 lines 253-422)."""
-    found = rules_of(throw(20.0, row(axis_deg)))
-    assert tuple(rule.transferred_share for rule in found) == shares
-    for rule in found:
+    thumbs = rules_of(throw(20.0, row(axis_deg)))
+    assert tuple(rule.transferred_share for rule in thumbs) == shares
+    for rule in thumbs:
         k = rule.transferred_share
         assert rule.peak_along == pytest.approx((1 - k) * F0)
         assert rule.peak_across == pytest.approx(k * F0)
@@ -87,9 +87,9 @@ def test_no_rule_where_there_is_nothing_to_turn(co: float, counter: float) -> No
 def test_moments(throws: list[object], shares: tuple[float, ...]) -> None:
     """m_np = k m_s (r / r_np)(l / l_np), twice (seed 002 lines 493-503)."""
     first = reciprocating(layout(machine(*throws)), 1).moment  # type: ignore[arg-type]
-    found = moment_rules(ellipse(first), OMEGA**2, 0.84)
-    assert tuple(rule.transferred_share for rule in found) == shares
-    for rule in found:
+    thumbs = moment_rules(ellipse(first), OMEGA**2, 0.84)
+    assert tuple(rule.transferred_share for rule in thumbs) == shares
+    for rule in thumbs:
         k = rule.transferred_share
         assert rule.total_mass_radius_kg_m == pytest.approx(2 * k * 10.0 * RADIUS * 0.6 / 0.84)
         assert (rule.peak_along, rule.peak_across) == pytest.approx(((1 - k) * 0.6 * F0, k * 0.6 * F0))
@@ -102,9 +102,9 @@ def test_no_couple_without_two_planes_and_no_rule_for_other_moments() -> None:
 
 def test_rules_stand_at_stages_iii_and_iv_only() -> None:
     throws = inline([0, 90], [0.3, -0.3])
-    found = all_stages(layout(machine(*throws, webs=[web("a", 0.42), web("b", -0.42)])), np.zeros(2, complex))
-    assert [len(stage.rules_of_thumb) for stage in found] == [0, 0, 2, 2, 0, 0, 0, 0]
+    stages = all_stages(layout(machine(*throws, webs=[web("a", 0.42), web("b", -0.42)])), np.zeros(2, complex))
+    assert [len(stage.rules_of_thumb) for stage in stages] == [0, 0, 2, 2, 0, 0, 0, 0]
     assert len(all_stages(layout(machine(*throws)), None)[3].rules_of_thumb) == 0
-    names = [rule.name for stage in found for rule in stage.rules_of_thumb]
+    names = [rule.name for stage in stages for rule in stage.rules_of_thumb]
     assert names[0] == "transfer 20 % of the first-order force"
     assert names[2] == "transfer 15 % of the first-order moment"

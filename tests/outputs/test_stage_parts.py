@@ -14,14 +14,14 @@ F0 = 10.0 * RADIUS * OMEGA**2
 TWO = [web("a", 0.5), web("b", -0.5)]
 
 
-def found(*throws: Any, unbalance: Any = (0, 0)) -> dict[str, Stage]:
+def stages_by_name(*throws: Any, unbalance: Any = (0, 0)) -> dict[str, Stage]:
     fitted = None if unbalance is None else np.asarray(unbalance, dtype=complex)
-    return {one.stage: one for one in all_stages(layout(machine(*throws, webs=TWO)), fitted)}
+    return {stage.stage: stage for stage in all_stages(layout(machine(*throws, webs=TWO)), fitted)}
 
 
 def test_a_single_row_published() -> None:
     """Balancing, slides, single row: rotating force along the crank; first and second order along the axis."""
-    stages = found(throw(0.0, row(90), rotating_kg=10.0))
+    stages = stages_by_name(throw(0.0, row(90), rotating_kg=10.0))
     first, _, third, fourth, fifth, _ = (stages[name].acting[0] for name in ("I", "II", "III", "IV", "V", "VI"))
     assert (first.motion, first.direction_deg, first.peak) == ("with_shaft", 0.0, pytest.approx(F0))
     assert (third.motion, third.direction_deg, third.minor) == (
@@ -39,9 +39,9 @@ def test_a_single_row_published() -> None:
 
 def test_half_the_force_taken_leaves_a_circle_backward_published() -> None:
     """k = 1/2: a circle of F0/2 against the shaft."""
-    iron = found(throw(0.0, row(90)))["VII"].iron
-    half = [0.5 * complex(one.reciprocating_x_kg_m, one.reciprocating_y_kg_m) for one in iron]
-    (left,) = found(throw(0.0, row(90)), unbalance=half)["III"].left or ()
+    iron = stages_by_name(throw(0.0, row(90)))["VII"].iron
+    half = [0.5 * complex(stage_iron.reciprocating_x_kg_m, stage_iron.reciprocating_y_kg_m) for stage_iron in iron]
+    (left,) = stages_by_name(throw(0.0, row(90)), unbalance=half)["III"].left or ()
     assert (left.motion, left.peak) == ("against_shaft", pytest.approx(F0 / 2.0))
 
 
@@ -49,11 +49,11 @@ def test_half_the_force_taken_leaves_a_circle_backward_published() -> None:
 def test_iron_of_any_share_leaves_the_rest_analytic(share: float) -> None:
     """Along the cylinders 1 - k of the first-order moment, across them k of it (two rows at 180 degrees)."""
     throws = inline([0, 180], [0.3, -0.3])
-    stages = found(*throws)
+    stages = stages_by_name(*throws)
     iron = stages["VII"].iron
-    assert [one.position_m for one in iron] == [-0.5, 0.5]
-    turning = [complex(one.rotating_x_kg_m, one.rotating_y_kg_m) for one in iron]
-    moving = [complex(one.reciprocating_x_kg_m, one.reciprocating_y_kg_m) for one in iron]
+    assert [stage_iron.position_m for stage_iron in iron] == [-0.5, 0.5]
+    turning = [complex(stage_iron.rotating_x_kg_m, stage_iron.rotating_y_kg_m) for stage_iron in iron]
+    moving = [complex(stage_iron.reciprocating_x_kg_m, stage_iron.reciprocating_y_kg_m) for stage_iron in iron]
     # webs a and b stand in the planes the other way round
     unbalance = np.array([turn + share * move for turn, move in zip(turning, moving, strict=True)])[::-1]
     arrays = layout(machine(*throws, webs=TWO))
@@ -69,16 +69,16 @@ def test_iron_of_any_share_leaves_the_rest_analytic(share: float) -> None:
 
 def test_the_summary_names_all_that_is_left_published() -> None:
     """An opposed pair: no forces; a moment of each order in the plane of the axes."""
-    left = found(*opposed([0, 180], [0.3, -0.3]))["VIII"].left
+    left = stages_by_name(*opposed([0, 180], [0.3, -0.3]))["VIII"].left
     assert left is not None
-    assert [(one.quantity, one.order, one.motion) for one in left if one.motion != "none"] == [
+    assert [(entry.quantity, entry.order, entry.motion) for entry in left if entry.motion != "none"] == [
         ("moment", 1, "ellipse"), ("moment", 2, "fixed"),
     ]  # fmt: skip
 
 
 def test_nothing_is_left_where_there_are_no_counterweights_to_show() -> None:
-    stages = found(throw(0.0, row(90)), unbalance=None)
-    assert [one.left for one in stages.values()] == [None] * 8
+    stages = stages_by_name(throw(0.0, row(90)), unbalance=None)
+    assert [stage.left for stage in stages.values()] == [None] * 8
     assert [len(stages[name].iron) for name in ("VI", "VII", "VIII")] == [0, 2, 0]
 
 

@@ -57,8 +57,8 @@ def test_stages_add_up_to_the_orders_and_sweeps_have_the_same(ratio: int, rotati
         "rotation": rotation,
     }
     weights = [{"web": "a", "mass_kg": 2.0, "angle_deg": 210.0}, {"web": "one web", "mass_kg": 1.5, "angle_deg": 70.0}]
-    said = {"machine": body, "counterweights": weights, "outputs": ["stages", "orders", "residual"]}
-    request = AnalyzeRequest.model_validate(said)
+    payload = {"machine": body, "counterweights": weights, "outputs": ["stages", "orders", "residual"]}
+    request = AnalyzeRequest.model_validate(payload)
     answer = analyze(request)
     stages, after = _by_number(answer.stages), answer.residual.orders.after
     assert stages["VIII"].remaining == pytest.approx(after[0].force.peak_N + after[1].force.peak_N, rel=1e-12)

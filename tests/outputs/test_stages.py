@@ -31,8 +31,8 @@ def report(throws: list[Throw], unbalance: Any = (0, 0), **rest: Any) -> dict[st
     return {stage.stage: stage for stage in truncated(layout(machine(*throws, webs=TWO, **rest)), fitted)}
 
 
-def values(found: dict[str, Stage]) -> list[float]:
-    return [found[s].value for s in TITLES[:6]]
+def values(fields: dict[str, Stage]) -> list[float]:
+    return [fields[s].value for s in TITLES[:6]]
 
 
 ONE = [throw(0.0, row(90), rotating_kg=10.0)]
@@ -62,20 +62,20 @@ LAYOUTS = [
 
 @pytest.mark.parametrize(("throws", "expected", "balanceable"), LAYOUTS)
 def test_values_of_layouts(throws: list[Throw], expected: tuple[float, ...], balanceable: str) -> None:
-    found = report(throws)
+    document = report(throws)
     units = np.array([F0, F0 * SPAN, F0, F0 * SPAN, 0.2 * F0, 0.2 * F0 * SPAN])
-    np.testing.assert_allclose(values(found), units * expected, atol=1e-9 * F0)
-    assert [found[s].balanceable for s in TITLES[:6]] == balanceable.split()
+    np.testing.assert_allclose(values(document), units * expected, atol=1e-9 * F0)
+    assert [document[s].balanceable for s in TITLES[:6]] == balanceable.split()
 
 
 def test_every_stage_in_order_with_unit_and_words() -> None:
-    found = truncated(layout(machine(*ONE, webs=TWO)), np.zeros(2, complex))
-    assert tuple(stage.stage for stage in found) == TITLES
-    assert [stage.unit for stage in found] == ["N", "N m", "N", "N m", "N", "N m", "kg m", "N"]
-    for stage in found:
+    stages = truncated(layout(machine(*ONE, webs=TWO)), np.zeros(2, complex))
+    assert tuple(stage.stage for stage in stages) == TITLES
+    assert [stage.unit for stage in stages] == ["N", "N m", "N", "N m", "N", "N m", "kg m", "N"]
+    for stage in stages:
         assert all((stage.title, stage.quantity, stage.formula, stage.plane, stage.frequency))
-    assert found[0].frequency == "n = 7.958 Hz"
-    assert found[4].frequency == "2n = 15.915 Hz"
+    assert stages[0].frequency == "n = 7.958 Hz"
+    assert stages[4].frequency == "2n = 15.915 Hz"
 
 
 PLANES = [
@@ -107,23 +107,23 @@ def test_planes_analytic(throws: list[Throw], stage: str, plane: str) -> None:
 
 
 def test_the_backward_phasor_cannot_be_balanced_at_all_analytic() -> None:
-    found = report([throw(0.0, row(0)), throw(180.0, row(90))])
-    assert found["III"].balanceable == "no"
-    assert found["VIII"].balanceable == "no"
+    document = report([throw(0.0, row(0)), throw(180.0, row(90))])
+    assert document["III"].balanceable == "no"
+    assert document["VIII"].balanceable == "no"
 
 
 def test_the_summary_says_what_is_left() -> None:
     """Half the reciprocating mass on: a circle of half the force against the shaft, and the second order as it was."""
     both = -(10.0 + 5.0) * RADIUS / 2 * np.ones(2)
-    found = report(ONE, both)["VIII"]
-    assert found.value == pytest.approx((1 + 1 + 0.2) * F0)  # analytic
-    assert found.remaining == pytest.approx((0.5 + 0.2) * F0)  # analytic
-    assert found.plane == (
+    viii = report(ONE, both)["VIII"]
+    assert viii.value == pytest.approx((1 + 1 + 0.2) * F0)  # analytic
+    assert viii.remaining == pytest.approx((0.5 + 0.2) * F0)  # analytic
+    assert viii.plane == (
         "first-order force 1750 N, rotates against the shaft, at 180.0 deg at shaft angle 0; "
         "second-order force 700 N, along 90.0 deg (fixed direction)"
     )
-    assert found.frequency == "n = 7.958 Hz, 2n = 15.915 Hz"
-    assert found.balanceable == "partly"
+    assert viii.frequency == "n = 7.958 Hz, 2n = 15.915 Hz"
+    assert viii.balanceable == "partly"
     # what rounding leaves is not mentioned
     assert "order force" not in report(opposed([0, 180], [0.3, -0.3]), [1e-12, 0])["VIII"].plane
     six = opposed([0, 180, 240, 60, 120, 300], [2.3, 1.7, 0.3, -0.3, -1.7, -2.3])
@@ -150,35 +150,35 @@ def test_superposition_on_a_single_row(
 ) -> None:
     """Shares of F0; a counterweight of k F0 leaves (1 - k) along and k across (seed 002 lines 253-422)."""
     unbalance = -(rotating_served + reciprocating_served) * 10.0 * RADIUS / 2 * np.ones(2)
-    found = report(ONE, unbalance)
-    assert found["I"].remaining == pytest.approx(first * F0, abs=1e-9)
-    assert found["III"].remaining == pytest.approx(third * F0, abs=1e-9)
-    assert found["V"].remaining == found["V"].value
+    document = report(ONE, unbalance)
+    assert document["I"].remaining == pytest.approx(first * F0, abs=1e-9)
+    assert document["III"].remaining == pytest.approx(third * F0, abs=1e-9)
+    assert document["V"].remaining == document["V"].value
 
 
 def test_moments_are_shared_out_in_the_same_way_published() -> None:
     """Eq (A) of seed 002 for the rotating moment, half the share of the reciprocating one on top."""
     throws = opposed([0, 180], [0.3, -0.3])
     turning = 10.0 * RADIUS * SPAN / 1.0  # webs 1 m apart
-    found = report(throws, [-turning, turning])
-    assert (found["II"].remaining, found["IV"].remaining) == pytest.approx((0.0, F0 * SPAN), abs=1e-9)
-    found = report(throws, [-1.5 * turning, 1.5 * turning])
-    assert (found["II"].remaining, found["IV"].remaining) == pytest.approx((0.0, 0.5 * F0 * SPAN), abs=1e-9)
-    assert found["VI"].remaining == found["VI"].value
+    document = report(throws, [-turning, turning])
+    assert (document["II"].remaining, document["IV"].remaining) == pytest.approx((0.0, F0 * SPAN), abs=1e-9)
+    record = report(throws, [-1.5 * turning, 1.5 * turning])
+    assert (record["II"].remaining, record["IV"].remaining) == pytest.approx((0.0, 0.5 * F0 * SPAN), abs=1e-9)
+    assert record["VI"].remaining == record["VI"].value
 
 
 @pytest.mark.parametrize("harmonic", [acceleration_harmonic, acceleration_harmonic_order_2])
 def test_the_second_order_follows_the_kinematics(harmonic: Any) -> None:
-    found = all_stages(layout(machine(*ONE, webs=TWO)), None, harmonic)
-    assert found[4].value == pytest.approx(F0 * float(harmonic(2, np.asarray(0.2))))
+    stages = all_stages(layout(machine(*ONE, webs=TWO)), None, harmonic)
+    assert stages[4].value == pytest.approx(F0 * float(harmonic(2, np.asarray(0.2))))
     # published: exact 0.202038
     assert all_stages(layout(machine(*ONE)), None)[4].value == pytest.approx(F0 * 0.202038, rel=1e-5)
 
 
 def test_nothing_remains_to_be_said_where_it_is_infeasible() -> None:
-    found = report(inline([0, 90], [0.3, -0.3]), None)
-    assert all(stage.remaining is None for stage in found.values())
-    assert found["VIII"].plane.startswith("first-order force")
+    document = report(inline([0, 90], [0.3, -0.3]), None)
+    assert all(stage.remaining is None for stage in document.values())
+    assert document["VIII"].plane.startswith("first-order force")
 
 
 class TestIron:
@@ -186,16 +186,16 @@ class TestIron:
 
     def test_a_single_row_published(self) -> None:
         """m_rot r + m_s r / 2, shared by two counterweights."""
-        found = report(ONE)["VII"]
-        assert found.value == pytest.approx(1.5 * 10.0 * RADIUS)
-        assert found.remaining == found.value
-        assert found.plane == "planes z = -0.5 m and z = 0.5 m"
-        assert found.balanceable == "fully"
+        vii = report(ONE)["VII"]
+        assert vii.value == pytest.approx(1.5 * 10.0 * RADIUS)
+        assert vii.remaining == vii.value
+        assert vii.plane == "planes z = -0.5 m and z = 0.5 m"
+        assert vii.balanceable == "fully"
 
     def test_two_rows_at_180_published(self) -> None:
         """m_np r_np l_np = m_rot r l, and half of m_s r l for the reciprocating masses."""
-        found = report(inline([0, 180], [0.3, -0.3]))["VII"]
-        assert found.value == pytest.approx(2 * 1.5 * 10.0 * RADIUS * SPAN / 1.0)
+        vii = report(inline([0, 180], [0.3, -0.3]))["VII"]
+        assert vii.value == pytest.approx(2 * 1.5 * 10.0 * RADIUS * SPAN / 1.0)
 
     def test_what_is_missing_analytic(self) -> None:
         throws = [throw(0.0, row(90), z=0.5, rotating_kg=10.0)]
@@ -215,9 +215,9 @@ class TestIron:
         [([], "no webs, force only"), ([web("a", 0.25), web("b", 0.25)], "plane z = 0.25 m, force only")],
     )
     def test_without_two_planes_only_the_force_counts(self, webs: list[Any], plane: str) -> None:
-        found = all_stages(layout(machine(*ONE, webs=webs)), np.zeros(len(webs), complex))[6]
-        assert found.value == pytest.approx(1.5 * 10.0 * RADIUS)  # analytic
-        assert found.plane == plane
+        stage = all_stages(layout(machine(*ONE, webs=webs)), np.zeros(len(webs), complex))[6]
+        assert stage.value == pytest.approx(1.5 * 10.0 * RADIUS)  # analytic
+        assert stage.plane == plane
 
     def test_counterweights_between_the_outer_planes_can_do_it_all(self) -> None:
         webs = [web("a", 0.5), web("b", 0.2), web("c", -0.3), web("d", -0.5)]
@@ -226,11 +226,11 @@ class TestIron:
         inner = np.array([r.influence[1:3] for r in responses], dtype=complex)
         unbalance = np.zeros(4, complex)
         unbalance[1:3] = np.linalg.solve(inner, -np.array([r.baseline.co for r in responses]))
-        found = all_stages(arrays, unbalance)
-        assert found[6].value > 0
-        assert found[6].remaining == pytest.approx(0.0, abs=1e-12)
-        assert found[0].remaining == pytest.approx(0.0, abs=1e-8)
-        assert found[1].remaining == pytest.approx(0.0, abs=1e-8)
+        stages = all_stages(arrays, unbalance)
+        assert stages[6].value > 0
+        assert stages[6].remaining == pytest.approx(0.0, abs=1e-12)
+        assert stages[0].remaining == pytest.approx(0.0, abs=1e-8)
+        assert stages[1].remaining == pytest.approx(0.0, abs=1e-8)
 
 
 @st.composite
@@ -244,20 +244,20 @@ def cases(draw: st.DrawFn) -> tuple[ReciprocatingMachine, Complex]:
 def test_the_stages_add_up(case: tuple[ReciprocatingMachine, Complex]) -> None:
     machine_, unbalance = case
     arrays = layout(machine_)
-    found = {stage.stage: stage for stage in all_stages(arrays, unbalance)}
+    stages = {stage.stage: stage for stage in all_stages(arrays, unbalance)}
     wrench = rotating(arrays).plus(reciprocating(arrays, 1)).plus(counterweights(arrays, unbalance))
     square = float(arrays.omega) ** 2
-    remaining = {name: float(stage.remaining or 0.0) for name, stage in found.items()}
-    small = 1e-9 * (sum(stage.value + remaining[name] for name, stage in found.items()) + square)
+    remaining = {name: float(stage.remaining or 0.0) for name, stage in stages.items()}
+    small = 1e-9 * (sum(stage.value + remaining[name] for name, stage in stages.items()) + square)
     # VIII is the first-order residual and the second order
     assert remaining["VIII"] == pytest.approx(float(wrench.force.peak) * square + remaining["V"], abs=small)
     # the parts never hide what the whole has
     assert remaining["I"] + remaining["III"] >= float(wrench.force.peak) * square - small
     assert remaining["II"] + remaining["IV"] >= float(wrench.moment.peak) * square - small
     # no stage of rotating masses is made worse, none of the second order is touched
-    assert remaining["I"] <= found["I"].value + small
-    assert remaining["II"] <= found["II"].value + small
-    assert (remaining["V"], remaining["VI"]) == (found["V"].value, found["VI"].value)
+    assert remaining["I"] <= stages["I"].value + small
+    assert remaining["II"] <= stages["II"].value + small
+    assert (remaining["V"], remaining["VI"]) == (stages["V"].value, stages["VI"].value)
     # the floor: what turns against the shaft
     assert remaining["III"] >= abs(wrench.force.counter) * square - small
     assert remaining["IV"] >= abs(wrench.moment.counter) * square - small

@@ -40,22 +40,22 @@ MACHINES = {
 def test_a_peak_does_not_depend_on_what_is_searched_beside_it(name: str) -> None:
     # independent: each search by itself, with the curves' own expansions
     machine = MACHINES[name]()
-    shown = _SHOWN if machine.get("bearings") else _SHOWN[:-1]
-    request = AnalyzeRequest.model_validate({"machine": machine, "outputs": shown, "angles": {"step_deg": 30}})
+    texts = _SHOWN if machine.get("bearings") else _SHOWN[:-1]
+    request = AnalyzeRequest.model_validate({"machine": machine, "outputs": texts, "angles": {"step_deg": 30}})
     scene = prepare(request, request.outputs)
     unbalance = np.full(len(machine["webs"]), 0.3 - 0.2j)
-    searches = list(chain.from_iterable(OUTPUTS[each].searches(scene, unbalance) for each in shown))
+    searches = list(chain.from_iterable(OUTPUTS[text].searches(scene, unbalance) for text in texts))
     search(scene, searches)
-    for one in searches:
-        alone = one.curves.pieces.peaks(one.offset, TOLERANCE, one.number, one.group, one.sign)
-        together = scene.peaks.brackets(one.name)
-        shown = scene.peaks.plain(one.name)
+    for entry in searches:
+        alone = entry.curves.pieces.peaks(entry.offset, TOLERANCE, entry.number, entry.group, entry.sign)
+        together = scene.peaks.brackets(entry.name)
+        texts = scene.peaks.plain(entry.name)
         angle = np.mod(alone.angle, np.deg2rad(360.0) * scene.results["whole_turn"].turns)
-        np.testing.assert_array_equal(together.angle, angle, err_msg=str(one.name))
-        np.testing.assert_array_equal(shown.angle_deg, np.rad2deg(angle), err_msg=str(one.name))
-        np.testing.assert_array_equal(together.value, alone.value, err_msg=str(one.name))
-        np.testing.assert_array_equal(shown.lower, alone.lower * one.scale, err_msg=str(one.name))
-        np.testing.assert_array_equal(shown.upper, alone.upper * one.scale, err_msg=str(one.name))
+        np.testing.assert_array_equal(together.angle, angle, err_msg=str(entry.name))
+        np.testing.assert_array_equal(texts.angle_deg, np.rad2deg(angle), err_msg=str(entry.name))
+        np.testing.assert_array_equal(together.value, alone.value, err_msg=str(entry.name))
+        np.testing.assert_array_equal(texts.lower, alone.lower * entry.scale, err_msg=str(entry.name))
+        np.testing.assert_array_equal(texts.upper, alone.upper * entry.scale, err_msg=str(entry.name))
 
 
 def test_outputs_without_floors_need_one_search(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -83,12 +83,12 @@ def test_nothing_is_searched_where_no_output_shows_a_peak() -> None:
 def test_orders_are_those_of_the_counterweights_asked_for() -> None:
     # independent: each asked of a machine of its own, which knows nothing of the others
     request = AnalyzeRequest.model_validate({"machine": _example("2d12"), "outputs": ["orders"]})
-    one, other = (np.full(len(request.machine.webs), size, complex) for size in (0.3 - 0.2j, -0.1j))
+    first, second = (np.full(len(request.machine.webs), size, complex) for size in (0.3 - 0.2j, -0.1j))
     scene = prepare(request, request.outputs)
-    for unbalance in (one, other, None, one):
+    for unbalance in (first, second, None, first):
         alone = prepare(request, request.outputs).orders(unbalance)
         for order, wrench in scene.orders(unbalance).items():
             for pair, own in zip(wrench, alone[order], strict=True):
                 assert (pair.co, pair.counter) == (own.co, own.counter)
-    assert scene.orders(one)[1].force.co != scene.orders(other)[1].force.co
-    assert scene.orders(one)[2] is scene.orders(other)[2]
+    assert scene.orders(first)[1].force.co != scene.orders(second)[1].force.co
+    assert scene.orders(first)[2] is scene.orders(second)[2]

@@ -10,23 +10,23 @@ from tests.pairs.combinations import Combination, all_pairs, random_triples
 _SHOWN = 10
 
 
-def _told(title: str, combinations: Iterable[Combination], time_limit_s: float) -> int:
+def _print_outcomes(title: str, combinations: Iterable[Combination], time_limit_s: float) -> int:
     """Print what combinations come to; how many are at fault."""
     outcomes: list[Outcome] = []
     for base, features in combinations:
-        found = ask(base, features, time_limit_s)
-        outcomes.append(found)
-        if found.kind == "fault":
-            print(f"  fault: {found.name} | {found.message}", flush=True)
-    kinds = Counter(each.kind for each in outcomes)
-    statuses = Counter(each.status for each in outcomes if each.kind == "answered")
-    slow = sorted(outcomes, key=lambda each: -each.cpu_s)[:_SHOWN]
+        outcome = ask(base, features, time_limit_s)
+        outcomes.append(outcome)
+        if outcome.kind == "fault":
+            print(f"  fault: {outcome.name} | {outcome.message}", flush=True)
+    kinds = Counter(single_outcome.kind for single_outcome in outcomes)
+    statuses = Counter(single_outcome.status for single_outcome in outcomes if single_outcome.kind == "answered")
+    slow = sorted(outcomes, key=lambda single_outcome: -single_outcome.cpu_s)[:_SHOWN]
     print(
         f"{title}: legal {kinds['answered'] + kinds['fault']} ({dict(statuses)}), refused {kinds['refused']}, "
         f"no place {kinds['no place']}, faults {kinds['fault']}"
     )
-    for each in slow:
-        print(f"  {each.cpu_s:6.2f} s CPU  {each.status:10}  {each.name}")
+    for second_outcome in slow:
+        print(f"  {second_outcome.cpu_s:6.2f} s CPU  {second_outcome.status:10}  {second_outcome.name}")
     return kinds["fault"]
 
 
@@ -39,9 +39,9 @@ def main() -> int:
     options.add_argument(
         "--time-limit", type=float, default=0.5, help="accuracy.time_limit_s of requests that say none"
     )
-    asked = options.parse_args()
-    faults = 0 if asked.no_pairs else _told("all pairs", all_pairs(), asked.time_limit)
-    faults += _told("random triples", random_triples(asked.triples, asked.seed), asked.time_limit)
+    arguments = options.parse_args()
+    faults = 0 if arguments.no_pairs else _print_outcomes("all pairs", all_pairs(), arguments.time_limit)
+    faults += _print_outcomes("random triples", random_triples(arguments.triples, arguments.seed), arguments.time_limit)
     return 1 if faults else 0
 
 

@@ -101,8 +101,8 @@ def _unlike_numbers(text: str) -> Iterator[str]:
 
 def _broken_claims(body: Request, text: str) -> Iterator[str]:
     """What the checker, which shares no code with what computed the answer, proves to be wrong."""
-    found = checker()
-    for claim in found.verify(body, json.loads(text), found.PLACES)["claims"]:
+    module = checker()
+    for claim in module.verify(body, json.loads(text), module.PLACES)["claims"]:
         if claim["verdict"] == "broken":
             yield f"{claim['claim']} is broken by {claim['margin']}"
 
@@ -132,7 +132,7 @@ def _wrong(request: OptimizeRequest, answer: OptimizeAnswer) -> Iterator[str]:
 def _left(request: OptimizeRequest) -> float:
     """What the last goal that is no cost leaves to costs after it."""
     order = request.objective.priorities
-    last = max((n for n, one in enumerate(order) if one.goal not in COSTS), default=-1)
+    last = max((n for n, priority in enumerate(order) if priority.goal not in COSTS), default=-1)
     return order[last].allowance if 0 <= last < len(order) - 1 else 0.0
 
 
@@ -147,27 +147,31 @@ def _wrong_infeasibility(answer: OptimizeAnswer) -> Iterator[str]:
 def _wrong_masses(request: OptimizeRequest, answer: OptimizeAnswer) -> Iterator[str]:
     """Counterweights outside of their limits."""
     webs = {web.name: web for web in request.machine.every_web}
-    on_shafts = (each for shaft in answer.balance_shafts for each in shaft.counterweights)
-    for each in (*answer.counterweights, *on_shafts):
-        web = webs[each.web]
+    on_shafts = (counterweight for shaft in answer.balance_shafts for counterweight in shaft.counterweights)
+    for weight in (*answer.counterweights, *on_shafts):
+        web = webs[weight.web]
         if web.fixed is not None:
             continue
         most = web.max_mass_kg
-        if most is not None and each.mass_kg > most * (1.0 + _OVER):
-            yield f"{each.web} is heavier than its limit: {each.mass_kg} kg"
-        if each.mass_kg == 0.0:
+        if most is not None and weight.mass_kg > most * (1.0 + _OVER):
+            yield f"{weight.web} is heavier than its limit: {weight.mass_kg} kg"
+        if weight.mass_kg == 0.0:
             continue
         least = web.min_fitted_mass_kg
-        if least is not None and each.mass_kg < least * (1.0 - _OVER):
-            yield f"{each.web} is lighter than its limit: {each.mass_kg} kg"
+        if least is not None and weight.mass_kg < least * (1.0 - _OVER):
+            yield f"{weight.web} is lighter than its limit: {weight.mass_kg} kg"
         if web.sector is not None:
-            off = abs((each.angle_deg - web.sector.centre_deg + 180.0) % 360.0 - 180.0)
+            off = abs((weight.angle_deg - web.sector.centre_deg + 180.0) % 360.0 - 180.0)
             if off > web.sector.half_angle_deg + 1e-7:
-                yield f"{each.web} is outside of its sector: {each.angle_deg} deg"
+                yield f"{weight.web} is outside of its sector: {weight.angle_deg} deg"
     machine, total = request.machine, answer.total_mass_kg or 0.0
     if machine.max_total_mass_kg is not None and total > machine.max_total_mass_kg * (1.0 + _OVER) + 1e-12:
         yield f"the total mass is over its limit: {total} kg"
-    some = sum(1 for each in answer.counterweights if each.mass_kg > 0 and webs[each.web].fixed is None)
+    some = sum(
+        1
+        for counterweight in answer.counterweights
+        if counterweight.mass_kg > 0 and webs[counterweight.web].fixed is None
+    )
     if machine.max_counterweights is not None and some > machine.max_counterweights:
         yield f"{some} counterweights are more than {machine.max_counterweights}"
 
@@ -178,8 +182,8 @@ def _wrong_objective(request: OptimizeRequest, answer: OptimizeAnswer, objective
     plain = goal.direction_weights.x == goal.direction_weights.y == 1.0
     if goal.over_the_turn or request.robust or not plain or answer.residual is None or answer.residual.after is None:
         return
-    after, wanted = answer.residual.after, weights(request.machine, goal)
-    peaks = np.array([wanted["force"] * after.force.peak_N, wanted["moment"] * after.moment.peak_Nm])
+    after, factors = answer.residual.after, weights(request.machine, goal)
+    peaks = np.array([factors["force"] * after.force.peak_N, factors["moment"] * after.moment.peak_Nm])
     value = float(np.max(peaks) if goal.combine == "max" else np.sum(peaks))
     if abs(value - objective) > _ROUNDING * size:
         yield f"the objective is {objective}, and its peaks come to {value}"
@@ -191,7 +195,7 @@ def _wrong_ceilings(request: OptimizeRequest, answer: OptimizeAnswer) -> Iterato
     if answer.status != "optimal" or residual is None or residual.after is None or goal.orders == "all":
         return
     after = residual.after
-    kept = (
+    entry = (
         ("force_ceiling_N", after.force.peak_N, residual.before.force.peak_N),
         ("moment_ceiling_Nm", after.moment.peak_Nm, residual.before.moment.peak_Nm),
         ("force_ceiling_x_N", after.force.peak_x_N, residual.before.force.peak_N),
@@ -199,7 +203,7 @@ def _wrong_ceilings(request: OptimizeRequest, answer: OptimizeAnswer) -> Iterato
         ("moment_ceiling_x_Nm", after.moment.peak_x_Nm, residual.before.moment.peak_Nm),
         ("moment_ceiling_y_Nm", after.moment.peak_y_Nm, residual.before.moment.peak_Nm),
     )
-    for field, peak, before in kept:
+    for field, peak, before in entry:
         allowed = getattr(goal, field)
         if allowed is not None and peak > allowed + _KEPT * max(before, allowed):
             yield f"{field} is not kept: {peak} > {allowed}"

@@ -212,8 +212,8 @@ def _mid_webs(subject: Subject) -> None:
 
 def _scenarios(subject: Subject, *changes: tuple[str, float]) -> None:
     faster = [{"path": "/machine/speed_rpm", "value": 1.1 * subject.machine["speed_rpm"]}]
-    others = [{"path": path, "value": value} for path, value in changes]
-    subject.body["scenarios"] = [{"name": "as it is"}, {"name": "other", "weight": 0.9, "changes": faster + others}]
+    values = [{"path": path, "value": value} for path, value in changes]
+    subject.body["scenarios"] = [{"name": "as it is"}, {"name": "other", "weight": 0.9, "changes": faster + values}]
 
 
 def _heavier(subject: Subject) -> None:

@@ -96,17 +96,17 @@ def at_rest(base: str) -> Mapping[str, float]:
     machine = BASES[base]["machine"]
     turning = machine["kind"] == "reciprocating"
     outputs = ["residual", *(["main_bearings"] if turning else [])]
-    found = analyze(AnalyzeRequest.model_validate({"machine": machine, "outputs": outputs}))
-    assert found.residual is not None
-    before = found.residual.before
+    answer = analyze(AnalyzeRequest.model_validate({"machine": machine, "outputs": outputs}))
+    assert answer.residual is not None
+    before = answer.residual.before
     # a machine without a moment gets one under its ceiling as its webs are loaded unequally
     least = _ARM_M * before.force.peak_N
     peaks = {"force_ceiling_N": before.force.peak_N, "moment_ceiling_Nm": max(before.moment.peak_Nm, least)}
     peaks |= {"force_ceiling_x_N": before.force.peak_x_N, "force_ceiling_y_N": before.force.peak_y_N}
     peaks |= {"moment_ceiling_x_Nm": max(before.moment.peak_x_Nm, least)}
     peaks |= {"moment_ceiling_y_Nm": max(before.moment.peak_y_Nm, least)}
-    loads = found.main_bearings
-    bearing = max(each.before.peak_N for each in loads.bearings) if loads is not None else 1e3
+    loads = answer.main_bearings
+    bearing = max(support.before.peak_N for support in loads.bearings) if loads is not None else 1e3
     bending = max(loads.bending.before_Nm) if loads is not None else 1e2
     return peaks | {
         "bearing_ceiling_N": bearing,

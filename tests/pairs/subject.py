@@ -19,13 +19,13 @@ class Subject:
 
     @property
     def machine(self) -> dict[str, Any]:
-        found: dict[str, Any] = self.body["machine"]
-        return found
+        machine: dict[str, Any] = self.body["machine"]
+        return machine
 
     @property
     def webs(self) -> list[dict[str, Any]]:
-        found: list[dict[str, Any]] = self.machine["webs"]
-        return found
+        webs: list[dict[str, Any]] = self.machine["webs"]
+        return webs
 
     @property
     def first(self) -> dict[str, Any]:
@@ -35,24 +35,24 @@ class Subject:
 
     @property
     def objective(self) -> dict[str, Any]:
-        found: dict[str, Any] = self.body.setdefault("objective", {})
-        return found
+        fields: dict[str, Any] = self.body.setdefault("objective", {})
+        return fields
 
     @property
     def catalogue(self) -> dict[str, Any]:
-        found: dict[str, Any] = self.machine.setdefault("catalogue", {})
-        return found
+        fields: dict[str, Any] = self.machine.setdefault("catalogue", {})
+        return fields
 
     @property
     def throws(self) -> list[dict[str, Any]]:
         if "throws" not in self.machine:
             raise NoPlace
-        found: list[dict[str, Any]] = self.machine["throws"]
-        return found
+        throws: list[dict[str, Any]] = self.machine["throws"]
+        return throws
 
     @property
     def rows(self) -> list[dict[str, Any]]:
-        found = [row for throw in self.throws for row in throw["rows"]]
-        if not found:
+        rows = [row for throw in self.throws for row in throw["rows"]]
+        if not rows:
             raise NoPlace
-        return found
+        return rows

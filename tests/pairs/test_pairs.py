@@ -20,7 +20,7 @@ _BLOCKS = 12
 
 
 def _faults(outcomes: list[Outcome]) -> list[str]:
-    return [f"{each.name} | {each.message}" for each in outcomes if each.kind == "fault"]
+    return [f"{outcome.name} | {outcome.message}" for outcome in outcomes if outcome.kind == "fault"]
 
 
 def _short(combination: Combination) -> str:
@@ -32,7 +32,7 @@ def _short(combination: Combination) -> str:
 def test_every_feature_is_legal_somewhere(base: str) -> None:
     outcomes = [ask(base, [name]) for name in FEATURES]
     assert not _faults(outcomes)
-    answered = {each.features[0] for each in outcomes if each.kind == "answered"}
+    answered = {outcome.features[0] for outcome in outcomes if outcome.kind == "answered"}
     alone = {
         "twin": {"roll weight", "bearings without sizes", "outputs of gas"},
         "vee": {"roll weight", "bearings without sizes", "outputs of gas"},
@@ -47,7 +47,7 @@ def test_every_feature_is_legal_somewhere(base: str) -> None:
 def test_some_pairs(quarter: int) -> None:
     outcomes = [ask(base, pair) for base, pair in some_pairs()[quarter::4]]
     assert not _faults(outcomes)
-    assert sum(each.kind == "answered" for each in outcomes) >= 27
+    assert sum(outcome.kind == "answered" for outcome in outcomes) >= 27
 
 
 @pytest.mark.parametrize("combination", part(2, some_pairs()[::9]), ids=_short)
@@ -92,7 +92,7 @@ def test_all_pairs(block: int) -> None:
 @pytest.mark.nightly
 @pytest.mark.parametrize("block", range(_BLOCKS))
 def test_random_triples(block: int) -> None:
-    some = [each for n, each in enumerate(random_triples(_TRIPLES)) if n % _BLOCKS == block]
+    some = [triple for n, triple in enumerate(random_triples(_TRIPLES)) if n % _BLOCKS == block]
     outcomes = [ask(base, triple) for base, triple in some]
     assert not _faults(outcomes)
     assert not _slow(outcomes)
@@ -100,6 +100,6 @@ def test_random_triples(block: int) -> None:
 
 def _slow(outcomes: list[Outcome]) -> list[str]:
     """What takes too long twice: once a kernel may be loaded, or an import made."""
-    slow = [each for each in outcomes if each.cpu_s > _MOST_CPU_S]
-    again = [ask(each.base, each.features) for each in slow]
-    return [f"{each.name} took {each.cpu_s:.1f} s" for each in again if each.cpu_s > _MOST_CPU_S]
+    slow = [outcome for outcome in outcomes if outcome.cpu_s > _MOST_CPU_S]
+    again = [ask(outcome.base, outcome.features) for outcome in slow]
+    return [f"{outcome.name} took {outcome.cpu_s:.1f} s" for outcome in again if outcome.cpu_s > _MOST_CPU_S]

@@ -31,7 +31,9 @@ def sweep_fault(base: str, features: tuple[str, ...]) -> str | None:
     try:
         request = check(SweepRequest, {"base": body, "axes": [axis]})
     except InvalidRequest as refusal:
-        return None if all(each.path and each.message for each in refusal.problems) else "refused without a field"
+        return (
+            None if all(problem.path and problem.message for problem in refusal.problems) else "refused without a field"
+        )
     (row,) = table(request).to_pylist()
     if row["status"] == "failed":
         return str(row["message"])
@@ -52,10 +54,10 @@ def pareto_fault(base: str, features: tuple[str, ...]) -> str | None:
     # of what is chosen nothing is proven that multipliers could prove
     fault = "multipliers"
     for more in ({"multipliers": True}, {}):
-        sent = body | {"points": 3, **more}
-        found, fault = _answered(ParetoRequest, pareto, sent)
-        if found is not None:
-            return _broken(sent, found)
+        request = body | {"points": 3, **more}
+        text, fault = _answered(ParetoRequest, pareto, request)
+        if text is not None:
+            return _broken(request, text)
         if fault != "multipliers":
             break
     return fault or None
@@ -66,21 +68,21 @@ def round_fault(base: str, features: tuple[str, ...]) -> str | None:
     body = body_of(base, features)
     if body is None:
         return None
-    sent = {"request": body, "mass_step_kg": 0.3, "angle_step_deg": 7.2}
-    text, fault = _answered(RoundRequest, round_weights, sent)
+    fields = {"request": body, "mass_step_kg": 0.3, "angle_step_deg": 7.2}
+    text, fault = _answered(RoundRequest, round_weights, fields)
     if text is None:
         return fault or None
-    found = json.loads(text)
-    if found["rounding"] is None:
-        return None if found["status"] == "infeasible" else "nothing is said of the steps"
-    on_shafts = [weight for shaft in found["balance_shafts"] for weight in shaft["counterweights"]]
-    free = [weight for weight in (*found["counterweights"], *on_shafts) if not weight["fixed"]]
+    answer = json.loads(text)
+    if answer["rounding"] is None:
+        return None if answer["status"] == "infeasible" else "nothing is said of the steps"
+    on_shafts = [weight for shaft in answer["balance_shafts"] for weight in shaft["counterweights"]]
+    free = [weight for weight in (*answer["counterweights"], *on_shafts) if not weight["fixed"]]
     off = [abs(weight["mass_kg"] / 0.3 - round(weight["mass_kg"] / 0.3)) for weight in free]
     off += [abs(weight["angle_deg"] / 7.2 - round(weight["angle_deg"] / 7.2)) for weight in on_shafts]
     if max(off, default=0.0) > 1e-9:
         return "a weight stands between two steps"
-    proof, goal = found["certificate"], body.get("objective", {})
-    least = found["rounding"]["optimum"]["objective"]
+    proof, goal = answer["certificate"], body.get("objective", {})
+    least = answer["rounding"]["optimum"]["objective"]
     if not goal.get("priorities") and proof["objective"] < least - 1e-5 * proof["yardstick"]:
         return f"{proof['objective']} on steps is below {least} of any masses"
     bound = proof["lower_bound"]
@@ -95,31 +97,31 @@ def accuracy_fault(base: str, features: tuple[str, ...]) -> str | None:
     text, fault = _answered(AccuracyRequest, accuracy, body | {"repeats": 1})
     if text is None:
         return fault or None
-    found = json.loads(text)
-    if found["status"] == "contradicted":
+    document = json.loads(text)
+    if document["status"] == "contradicted":
         return "a bound is above a value"
-    rows = [row for row in (*found["ladder"], *found["choices_ladder"]) if row["relative_error"] is not None]
-    kept = [row for row in rows if row.get("limits_kept", True) and (row.get("excess") or 0.0) <= 1e-9]
-    below = [row["method"] for row in kept if row["relative_error"] < -1e-12]
+    rows = [row for row in (*document["ladder"], *document["choices_ladder"]) if row["relative_error"] is not None]
+    lines = [row for row in rows if row.get("limits_kept", True) and (row.get("excess") or 0.0) <= 1e-9]
+    below = [row["method"] for row in lines if row["relative_error"] < -1e-12]
     return f"{below} are below the bound" if below else None
 
 
-def _answered(kind: type[Any], compute: Callable[[Any], Any], sent: dict[str, Any]) -> tuple[str | None, str]:
+def _answered(kind: type[Any], compute: Callable[[Any], Any], fields: dict[str, Any]) -> tuple[str | None, str]:
     """The answer as text; else what is wrong: nothing where a field refuses it, whose name alone is `multipliers`."""
     try:
-        text: str = compute(check(kind, sent)).model_dump_json()
+        text: str = compute(check(kind, fields)).model_dump_json()
     except (InvalidRequest, NotComputable) as refusal:
         problems = list(refusal.problems)
-        if problems and all(each.path == ("multipliers",) for each in problems):
+        if problems and all(problem.path == ("multipliers",) for problem in problems):
             return None, "multipliers"
-        return None, "" if all(each.path and each.message for each in problems) else "refused without a field"
+        return None, "" if all(problem.path and problem.message for problem in problems) else "refused without a field"
     return (None, "it holds no finite number") if "NaN" in text or "Infinity" in text else (text, "")
 
 
-def _broken(sent: dict[str, Any], text: str) -> str | None:
+def _broken(fields: dict[str, Any], text: str) -> str | None:
     """The first claim that the checker finds broken."""
-    found = checker()
-    claims = found.verify(sent, json.loads(text), found.PLACES)["claims"]
+    module = checker()
+    claims = module.verify(fields, json.loads(text), module.PLACES)["claims"]
     return next(
         (f"{claim['claim']} is broken by {claim['margin']}" for claim in claims if claim["verdict"] == "broken"), None
     )

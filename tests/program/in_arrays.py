@@ -116,13 +116,13 @@ def near_limits(program: Statement, u: Complex, dust: float, touched: float) -> 
 
 def _least(influence: Complex | Real, left: Complex | Real) -> Complex:
     """What takes back as much as can be, row after row, each by the least change that leaves those before it alone."""
-    found, before = np.zeros(influence.shape[1], complex), np.zeros((0, influence.shape[1]), complex)
+    values, before = np.zeros(influence.shape[1], complex), np.zeros((0, influence.shape[1]), complex)
     for row, rest in zip(influence.astype(complex), left, strict=True):
         size = np.max(np.abs(row))
         if size > 0:
             apart = row / size - before.T @ (np.conj(before) @ (row / size))
             length = np.linalg.norm(apart)
             if length > 1e-13:
-                found -= np.conj(apart) / length * ((rest + row @ found) / size / length)
+                values -= np.conj(apart) / length * ((rest + row @ values) / size / length)
                 before = np.vstack([before, apart / length])
-    return found
+    return values

@@ -57,11 +57,13 @@ def _point(seed: int, program: Statement) -> Complex:
 def _of_all(name: str, kind: str) -> Any:
     """Of programs together, by arrays."""
     alone = [_program(seed, kind) for seed in _SEEDS]
-    proof = certificate.together(_multipliers(seed, one) for seed, one in enumerate(alone))
-    return FUNCTIONS[name](stacked(alone), np.stack([_point(n, one) for n, one in enumerate(alone)]), proof)
+    proof = certificate.together(_multipliers(seed, alone_statement) for seed, alone_statement in enumerate(alone))
+    return FUNCTIONS[name](
+        stacked(alone), np.stack([_point(n, alone_statement) for n, alone_statement in enumerate(alone)]), proof
+    )
 
 
-def _of_one(name: str, kind: str) -> Any:
+def _of_single(name: str, kind: str) -> Any:
     """Of one program, by compiled loops where those are for it."""
     program = _program(3, kind)
     return FUNCTIONS[name](program, _point(3, program), _multipliers(3, program))
@@ -78,25 +80,27 @@ def _rounded(kind: str) -> list[Any]:
     power = 2.0 ** np.arange(WEBS)
     limits = Limits(0.5 * ones, 8.0 * ones, np.ones(WEBS, bool), ones + 0j, 0.0 * ones, ones, np.asarray(np.inf))
     limits = replace(limits, max_total_mass=np.asarray(16.0)) if "budget" in kind else limits
-    one = replace(
+    variant = replace(
         program,
         norms=replace(program.norms, constant=np.full(count, -large + 0j), influence=np.tile(power, (count, 1))),
         floor=np.where(program.where_largest(np.ones(program.floor.shape)) > 0, 2.0 + large, large),
         ceilings=replace(program.ceilings, size=np.full(ceilings, 4.0), cap=np.full(ceilings, 2.0)),
         limits=replace(limits, alike=None),
     )
-    row = one.where_largest(np.ones(one.floor.shape))
-    term = row[one.row] * np.where(np.arange(count) == one.row.searchsorted(one.row), 1.0, 0.0)
+    row = variant.where_largest(np.ones(variant.floor.shape))
+    term = row[variant.row] * np.where(np.arange(count) == variant.row.searchsorted(variant.row), 1.0, 0.0)
     proof = Multipliers(term + 0j, row, np.full(ceilings, 0.25 + 0j))
-    bound = objective_lower_bound(one, proof)
-    free = replace(one, norms=replace(one.norms, influence=0.0 * one.norms.influence))
+    bound = objective_lower_bound(variant, proof)
+    free = replace(variant, norms=replace(variant.norms, influence=0.0 * variant.norms.influence))
     mass = mass_lower_bound(free, proof, np.asarray(1.0))
-    exact = certificate._minorants(one, proof, with_tolerance=False, normal=True)
+    exact = certificate._minorants(variant, proof, with_tolerance=False, normal=True)
     # limits that are far away, beside which slopes are summed in finer numbers
-    distant = replace(one, limits=replace(one.limits, max_mass=2.0**40 * ones, max_total_mass=np.asarray(np.inf)))
+    distant = replace(
+        variant, limits=replace(variant.limits, max_mass=2.0**40 * ones, max_total_mass=np.asarray(np.inf))
+    )
     finer = certificate._minorants(distant, proof, with_tolerance=False, normal=True)
     # of ceilings, whose numbers are no powers, the rounding of the sum itself would be all
-    rounded = [] if "ceiling" in kind else [(each - np.rint(each)) / _EPS for each in (bound, exact.constant)]
+    rounded = [] if "ceiling" in kind else [(values - np.rint(values)) / _EPS for values in (bound, exact.constant)]
     return [
         rounded, bound, mass, exact.constant, exact.slope, exact.rounding / _EPS, exact.support,
         finer.rounding / _EPS, finer.support,
@@ -104,14 +108,14 @@ def _rounded(kind: str) -> list[Any]:
 
 
 def _scaled(kind: str) -> list[Any]:
-    found = []
+    actual_data = []
     for seed, stage in ((1, "objective"), (2, "mass")):
         program = _program(seed, kind)
         data, units = scaling.scale(program, stage, 0.3, 0.1, 2.0, 5.0)  # type: ignore[arg-type]
-        found += [data, units]
+        actual_data += [data, units]
         none = replace(program, norms=replace(program.norms, constant=0.0 * program.norms.constant))
-        found.append(scaling.scale(none, "objective", 0.3)[1])
-    return found
+        actual_data.append(scaling.scale(none, "objective", 0.3)[1])
+    return actual_data
 
 
 def _sharper(kind: str) -> list[Any]:
@@ -133,9 +137,9 @@ def _settled(kind: str) -> list[Any]:
     u = limits.into(size * turn)
     points = points_at(program, u)
     worse = 1.1 * points.objective
-    found = [rounding.snap_to_limits(program, points, target, bound) for target in (points.objective, worse)
+    snap_to_limits = [rounding.snap_to_limits(program, points, target, bound) for target in (points.objective, worse)
              for bound in (None, 0.9 * points.mass)]  # fmt: skip
-    return [found, rounding.has_dust(limits, u)]
+    return [snap_to_limits, rounding.has_dust(limits, u)]
 
 
 def _alike(number: int) -> list[Any]:
@@ -150,36 +154,38 @@ def _alike(number: int) -> list[Any]:
     whole = replace(whole, ceilings=replace(whole.ceilings, norms=replace(none, influence=np.zeros((0, 6)))))
     u = rng.normal(size=(6, 2)) @ [1, 1j]
     proof = _multipliers(2, whole)
-    found = [
+    means = [
         webs.means(u), webs.nearest(u), webs.angles(2, 0.4), webs.fitted(np.abs(u), np.abs(50.0 * u)),
         webs.summed(u.real),
         limits.into(3.0 * u), limits.support(u), whole.objective(u), scaling.scale(whole, "objective", 0.4)[0],
         objective_lower_bound(whole, proof), mass_lower_bound(whole, proof, np.asarray(1.0)),
     ]  # fmt: skip
     if webs.plain:
-        one = united(whole, webs)
-        found += [one.norms, one.limits, apart(u[: webs.first.size], webs)]
+        actual_statement = united(whole, webs)
+        means += [actual_statement.norms, actual_statement.limits, apart(u[: webs.first.size], webs)]
     scattered = replace(whole, norms=replace(whole.norms, scatter=0.1))
-    return [*found, certificate.spread(scattered, proof), objective_lower_bound(scattered, proof)]
+    return [*means, certificate.spread(scattered, proof), objective_lower_bound(scattered, proof)]
 
 
 def _reach(kind: str) -> list[Any]:
     """Limits that are implied where there are none."""
-    found = []
+    numbers = []
     for seed, some in ((0, (0,)), (1, (1, 3)), (2, (0, 1, 2, 3))):
         program, far = _program(seed, kind), np.isin(np.arange(WEBS), some)
         wide = replace(program.limits, max_mass=np.where(far, np.inf, program.limits.max_mass))
-        one = replace(program, limits=wide)
-        level = float(implied_bounds.level_above(one, np.zeros(WEBS, complex)))
+        variant = replace(program, limits=wide)
+        level = float(implied_bounds.level_above(variant, np.zeros(WEBS, complex)))
         least = np.where(far, 0.05, 0.0)
-        bounded = [implied_bounds.bounded(one, level), within_semicontinuous_reach(one, least, level)]
+        bounded = [implied_bounds.bounded(variant, level), within_semicontinuous_reach(variant, least, level)]
         # linear programs are solved to some digits alone
-        found.append([np.round(np.log(np.minimum(each.limits.max_mass, 1e300)), 6) for each in bounded])
-        rows, most, scalar = responses(one, far, level)
-        found.append([rows, most, scalar, implied_bounds.far_limits(one)])
+        numbers.append(
+            [np.round(np.log(np.minimum(single_statement.limits.max_mass, 1e300)), 6) for single_statement in bounded]
+        )
+        rows, most, scalar = responses(variant, far, level)
+        numbers.append([rows, most, scalar, implied_bounds.far_limits(variant)])
         if len(rows) >= far.sum():
-            found.append([masses_by_inverse(rows * 0.3, most)])
-    return found
+            numbers.append([masses_by_inverse(rows * 0.3, most)])
+    return numbers
 
 
 def _pieces() -> list[Any]:
@@ -222,7 +228,7 @@ def _sampled(name: str) -> list[Any]:
     webs = program.limits.radius.size
     u = 0.05 * (np.random.default_rng(3).normal(size=(webs, 2)) @ [1, 1j])
     samples, count = Samples(program.quantities), len(program.quantities)
-    found = [
+    sizes = [
         [
             samples.sizes(u, scatter),
             _cuts(samples.highest(u, scatter, np.zeros(count))),
@@ -230,13 +236,13 @@ def _sampled(name: str) -> list[Any]:
         ]
         for scatter in (EXACT, Scatter(0.1, 0.01))
     ]
-    harmonics = [cut for each in program.quantities for cut in each.harmonics(2.0)]
-    return [found, _of_cuts(list(chain(*samples.first()))), _of_cuts(harmonics)]
+    harmonics = [cut for program_quantity in program.quantities for cut in program_quantity.harmonics(2.0)]
+    return [sizes, _of_cuts(list(chain(*samples.first()))), _of_cuts(harmonics)]
 
 
 def _cuts(several: Iterable[Sequence[Any]]) -> list[Any]:
     every = list(chain(*several))
-    return [np.array([[each.lower, each.upper] for each in every]), _of_cuts([each.cut for each in every])]
+    return [np.array([[entry.lower, entry.upper] for entry in every]), _of_cuts([entry.cut for entry in every])]
 
 
 def _of_cuts(cuts: Sequence[Cut]) -> list[Any]:
@@ -254,14 +260,16 @@ def _proven(name: str) -> list[Any]:
     term = 0.1 * (rng.normal(size=(begun.row.size, 2)) @ [1, 1j])
     dual = Multipliers(term, rng.uniform(size=begun.floor.size), np.full(len(begun.ceilings.names), 0.1j))
     levels = [0.9 * rest.goals[:-1], rest.goals]
-    proven = [_of_proof(each) for counted in levels for each in proofs(program, program.first, begun, u, dual, counted)]
+    proven = [
+        _of_proof(proof) for counted in levels for proof in proofs(program, program.first, begun, u, dual, counted)
+    ]
     penalty = under_levels(begun, program, 0.8 * rest.goals[:-1], 0.1, 3.0)
-    known = [begun.norms, begun.floor, begun.group, begun.ceilings.cap, begun.ceilings.size, program.units]
+    norms = [begun.norms, begun.floor, begun.group, begun.ceilings.cap, begun.ceilings.size, program.units]
     values = program.values(u, 1e-9)
-    seen, _ = program.sample_values(u, np.zeros(len(program.quantities)))
+    value, _ = program.sample_values(u, np.zeros(len(program.quantities)))
     return [
-        known, rest.goals, _of_proof(resting_proof(program, program.first, begun)), proven, penalty.floor,
-        penalty.norms, values.goals, values.excess, values.over_budget, seen.goals,
+        norms, rest.goals, _of_proof(resting_proof(program, program.first, begun)), proven, penalty.floor,
+        penalty.norms, values.goals, values.excess, values.over_budget, value.goals,
         floor_multipliers(program, program.first, begun),
         program.sizes, program.yardsticks,
         *(largest_last_goals(program, u, values.reached, 0.1, 0.05) if name in ("bearings", "rms", "beside") else ()),
@@ -281,21 +289,21 @@ def _weighed() -> list[Any]:
 
 def cases() -> dict[str, Callable[[], Any]]:
     """What is written down, by name."""
-    found: dict[str, Callable[[], Any]] = {}
+    functions: dict[str, Callable[[], Any]] = {}
     for kind in KINDS:
         for name in FUNCTIONS:
-            found[f"{name} of {kind}"] = partial(_of_all, name, kind)
-            found[f"{name} of one {kind}"] = partial(_of_one, name, kind)
+            functions[f"{name} of {kind}"] = partial(_of_all, name, kind)
+            functions[f"{name} of one {kind}"] = partial(_of_single, name, kind)
         of_kind = {"rounding": _rounded, "scaling": _scaled, "settled": _settled}
         if kind in ("plain", "sector, budget", "scalar, ceiling", "scatter"):
             of_kind["reach"] = _reach
         if "ceiling, scatter" not in kind:
             of_kind["sharper"] = _sharper
-        found |= {f"{name} of {kind}": partial(function, kind) for name, function in of_kind.items()}
-    found |= {f"alike {number}": partial(_alike, number) for number in range(len(GROUPS))}
+        functions |= {f"{name} of {kind}": partial(function, kind) for name, function in of_kind.items()}
+    functions |= {f"alike {number}": partial(_alike, number) for number in range(len(GROUPS))}
     for name in OVER_TURN:
-        found |= {f"samples of {name}": partial(_sampled, name), f"proofs of {name}": partial(_proven, name)}
-    return found | {"pieces": _pieces, "mass": _weighed}
+        functions |= {f"samples of {name}": partial(_sampled, name), f"proofs of {name}": partial(_proven, name)}
+    return functions | {"pieces": _pieces, "mass": _weighed}
 
 
 RECORD = Record(Path(__file__).with_name("recorded.json"), cases())

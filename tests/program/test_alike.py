@@ -46,11 +46,11 @@ def points(seed: int, count: int) -> Complex:
 def test_the_nearest_is_alike_and_nearest(group: tuple[tuple[int, ...], tuple[bool, ...]], seed: int) -> None:
     """Analytic: a projection; what it leaves pulls at nothing that is alike."""
     webs = alike(*group, seed)
-    u, other = points(seed, 2)
+    u, value = points(seed, 2)
     near = webs.nearest(u)
     assert np.allclose(webs.nearest(near), near, rtol=0, atol=1e-12)
     assert np.allclose(np.abs(near), np.abs(near)[list(webs.leader)], rtol=0, atol=1e-12)
-    assert abs(np.sum((np.conj(u - near) * webs.nearest(other)).real)) <= 1e-12
+    assert abs(np.sum((np.conj(u - near) * webs.nearest(value)).real)) <= 1e-12
 
 
 @given(ANY, SEED)
@@ -119,9 +119,9 @@ def test_what_one_web_carries_in_a_direction_tells_those_of_all(
 ) -> None:
     """Analytic: they are the directions of what is carried where that web carries something there."""
     webs = alike(*group, seed)
-    told = np.exp(1j * webs.angles(web, angle))
-    assert np.allclose(told[web], np.exp(1j * angle), rtol=0, atol=1e-12)
-    assert np.allclose(webs.nearest(told), told, rtol=0, atol=1e-12)
+    exponential = np.exp(1j * webs.angles(web, angle))
+    assert np.allclose(exponential[web], np.exp(1j * angle), rtol=0, atol=1e-12)
+    assert np.allclose(webs.nearest(exponential), exponential, rtol=0, atol=1e-12)
 
 
 @pytest.mark.parametrize("group", GROUPS)
@@ -134,10 +134,10 @@ def test_alike_webs_make_up_for_a_change_together(group: tuple[tuple[int, ...], 
     room[1, webs.owner == 0] = 0.0
     ones, (u, moved) = np.ones(WEBS), (webs.nearest(points(seed, 2)) for seed in (6, 7))
     limits = Limits(ones, 100 * ones, ones > 0, ones + 0j, 0 * ones, ones, np.asarray(np.inf), webs)
-    found = balanced(limits, influence, u, u + moved, room)
-    assert np.allclose(webs.nearest(found), found, rtol=0, atol=1e-12)
-    assert np.allclose(found[1, webs.owner == 0], (u + moved)[1, webs.owner == 0], rtol=0, atol=1e-12)
-    assert np.allclose(np.sum(influence * (found - u)[:, None, :], axis=-1), 0.0, rtol=0, atol=1e-9)
+    values = balanced(limits, influence, u, u + moved, room)
+    assert np.allclose(webs.nearest(values), values, rtol=0, atol=1e-12)
+    assert np.allclose(values[1, webs.owner == 0], (u + moved)[1, webs.owner == 0], rtol=0, atol=1e-12)
+    assert np.allclose(np.sum(influence * (values - u)[:, None, :], axis=-1), 0.0, rtol=0, atol=1e-9)
 
 
 @given(ANY, SEED)

@@ -24,28 +24,28 @@ from tests.program.test_leading_axes import KINDS, _multipliers, _program
 
 def test_a_sector_opens_by_what_its_support_grows() -> None:
     """Independent: differences of the support over the half-angle, where no edge is passed."""
-    one, step = np.ones(1), 1e-6
+    ones, step = np.ones(1), 1e-6
     grown = 0
     for half in (10.0, 45.0, 80.0):
         for angle in range(0, 360, 7):
             g, supports = 1.7 * direction(np.array([float(angle)])), []
             for moved in (-step, 0.0, step):
-                edge = np.exp(1j * (np.deg2rad(half) + moved)) * one
-                limits = Limits(one, one, one < 0, direction(25.0) * one, edge.real, edge.imag, np.asarray(np.inf))
+                edge = np.exp(1j * (np.deg2rad(half) + moved)) * ones
+                limits = Limits(ones, ones, ones < 0, direction(25.0) * ones, edge.real, edge.imag, np.asarray(np.inf))
                 supports.append(float(limits.support(g)[0]))
                 opening = float(limits.opening(g)[0]) if moved == 0.0 else 0.0
                 if moved == 0.0:
-                    found = opening
+                    value = opening
             low, high = (supports[1] - supports[0]) / step, (supports[2] - supports[1]) / step
             if abs(low - high) < 1e-4:
-                assert found == pytest.approx(0.5 * (low + high), abs=1e-5)
-                grown += found > 0.01
+                assert value == pytest.approx(0.5 * (low + high), abs=1e-5)
+                grown += value > 0.01
     assert grown > 20
     free = Limits(np.ones(2), np.ones(2), np.array([True, False]), np.ones(2) + 0j, np.zeros(2) + 0.8, np.ones(2) * 0.6,
                   np.asarray(np.inf))  # fmt: skip
     # analytic: at 60 degrees the edge at 36.87 degrees is left by 23.13
-    found = free.opening(2.0 * direction(np.array([60.0, 60.0])))
-    assert found == pytest.approx([0.0, 2.0 * np.sin(np.deg2rad(60.0 - np.rad2deg(np.arctan2(0.6, 0.8))))])
+    value = free.opening(2.0 * direction(np.array([60.0, 60.0])))
+    assert value == pytest.approx([0.0, 2.0 * np.sin(np.deg2rad(60.0 - np.rad2deg(np.arctan2(0.6, 0.8))))])
 
 
 @pytest.mark.parametrize("kind", ["ceiling", "group, sector, budget, ceiling, scatter"])
@@ -120,8 +120,8 @@ def test_a_bound_on_the_mass_is_its_minorant_at_a_target(kind: str) -> None:
     program = _program(6, kind)
     proof = _multipliers(6, program).times(np.asarray(5.0))
     target = program.at_rest
-    found = float(mass_lower_bound(program, proof, target))
-    assert found >= 0.0
+    bound = float(mass_lower_bound(program, proof, target))
+    assert bound >= 0.0
     usable = proof.admissible(program)
     norms, ceilings, limits = program.norms, program.ceilings, program.limits
     fixed = np.sum(usable.row * program.floor) + np.sum((np.conj(usable.term) * norms.constant).real)
@@ -136,7 +136,7 @@ def test_a_bound_on_the_mass_is_its_minorant_at_a_target(kind: str) -> None:
     for k in np.argsort(-gain):
         mass = min(limits.max_mass[k], left)
         gained, left = gained + max(gain[k], 0.0) * mass, left - mass
-    assert found == pytest.approx(max(fixed - usable.price(program) * target - gained, 0.0), rel=1e-9, abs=1e-9)
+    assert bound == pytest.approx(max(fixed - usable.price(program) * target - gained, 0.0), rel=1e-9, abs=1e-9)
 
 
 def test_a_bound_on_the_mass_falls_with_what_is_allowed() -> None:
@@ -159,8 +159,8 @@ def test_admissible_multipliers_are_what_they_have_to_be(kind: str) -> None:
     if any(program.norms.scalar):
         assert np.all(usable.term[np.array(program.norms.scalar)].imag == 0.0)
     again = usable.admissible(program)
-    for one, other in zip(vars(again).values(), vars(usable).values(), strict=True):
-        np.testing.assert_allclose(one, other, rtol=1e-14)
+    for multiplier, second_multiplier in zip(vars(again).values(), vars(usable).values(), strict=True):
+        np.testing.assert_allclose(multiplier, second_multiplier, rtol=1e-14)
     doubled = usable.times(np.asarray(2.0))
     assert doubled.price(program) == pytest.approx(2.0 * sums[0])
 
@@ -168,8 +168,8 @@ def test_admissible_multipliers_are_what_they_have_to_be(kind: str) -> None:
 def test_multipliers_of_some_programs_are_put_in_the_place_of_others() -> None:
     programs = [_program(seed, "ceiling") for seed in range(3)]
     every = Multipliers(*(np.stack(parts) for parts in zip(
-        *(vars(_multipliers(n, one)).values() for n, one in enumerate(programs)), strict=True)))  # fmt: skip
-    wanted = [np.copy(part) for part in vars(every).values()]
+        *(vars(_multipliers(n, program)).values() for n, program in enumerate(programs)), strict=True)))  # fmt: skip
+    variants = [np.copy(part) for part in vars(every).values()]
     every.put(np.array([0, 2]), every.subset(np.array([1, 1])))
-    for part, before in zip(vars(every).values(), wanted, strict=True):
+    for part, before in zip(vars(every).values(), variants, strict=True):
         np.testing.assert_array_equal(part, before[[1, 1, 1]])

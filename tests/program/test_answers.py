@@ -25,29 +25,32 @@ _NAMES = [name for name in records() if not any(part in name for part in _LEFT_O
 @pytest.mark.parametrize("name", part(3, _NAMES))
 def test_an_answer_is_as_good_and_as_well_proven_as_it_was(name: str) -> None:
     request, recorded = records()[name]["request"], records()[name]["answer"]
-    found = answered(request)
-    assert (found["status"], found["active_limits"]) == (recorded["status"], recorded["active_limits"])
-    if found["status"] == "infeasible":
-        _alike(found["infeasibility"], recorded["infeasibility"])
+    answer = answered(request)
+    assert (answer["status"], answer["active_limits"]) == (recorded["status"], recorded["active_limits"])
+    if answer["status"] == "infeasible":
+        _alike(answer["infeasibility"], recorded["infeasibility"])
         return
-    proof, known = found["certificate"], recorded["certificate"]
+    proof, certificate = answer["certificate"], recorded["certificate"]
     for field in ("objective", "lower_bound", "objective_without_counterweights", "mass_objective_limit"):
-        assert _near(proof[field], known[field], _GAP * known["yardstick"]), field
-    assert _near(proof["yardstick"], known["yardstick"], 1e-9 * known["yardstick"])
-    size = _MASS_GAP * (known["mass_yardstick_kg"] or 0.0)
-    assert _near(proof["mass_lower_bound_kg"], known["mass_lower_bound_kg"], size)
-    if known["mass_lower_bound_kg"] is not None:
-        assert _near(found["total_mass_kg"], recorded["total_mass_kg"], size)
-        fitted, before = ([each["mass_kg"] > 0.0 for each in one["counterweights"]] for one in (found, recorded))
+        assert _near(proof[field], certificate[field], _GAP * certificate["yardstick"]), field
+    assert _near(proof["yardstick"], certificate["yardstick"], 1e-9 * certificate["yardstick"])
+    size = _MASS_GAP * (certificate["mass_yardstick_kg"] or 0.0)
+    assert _near(proof["mass_lower_bound_kg"], certificate["mass_lower_bound_kg"], size)
+    if certificate["mass_lower_bound_kg"] is not None:
+        assert _near(answer["total_mass_kg"], recorded["total_mass_kg"], size)
+        fitted, before = (
+            [counterweight["mass_kg"] > 0.0 for counterweight in optimum["counterweights"]]
+            for optimum in (answer, recorded)
+        )
         assert fitted == before
 
 
-def _near(found: float | None, recorded: float | None, off: float) -> bool:
-    return found == recorded or (found is not None and recorded is not None and abs(found - recorded) <= off)
+def _near(value: float | None, recorded: float | None, off: float) -> bool:
+    return value == recorded or (value is not None and recorded is not None and abs(value - recorded) <= off)
 
 
-def _alike(found: dict[str, Any], recorded: dict[str, Any]) -> None:
-    assert found["conflict"] == recorded["conflict"]
+def _alike(fields: dict[str, Any], recorded: dict[str, Any]) -> None:
+    assert fields["conflict"] == recorded["conflict"]
     for field, value in recorded.items():
         if field.startswith("smallest_") and isinstance(value, float):
-            assert found[field] == pytest.approx(value, rel=1e-5, abs=1e-9), field
+            assert fields[field] == pytest.approx(value, rel=1e-5, abs=1e-9), field

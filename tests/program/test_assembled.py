@@ -35,9 +35,9 @@ def _solved(problem: Statement, stage: str, target: float = 0.0, mass_unit: floa
     clip = min(10.0 * float(natural_reach(problem)), float(np.max(problem.limits.reach)))
     data, scaling = scale(problem, stage, clip, 0.0, target, mass_unit)  # type: ignore[arg-type]
     targets = (GroupLimit(np.ones(problem.group[-1] + 1, bool), float(data.target[0])),) if stage == "mass" else ()
-    found = solved(data, 1e-10, 5.0, targets=targets)
-    assert isinstance(found, Assembled)
-    return found, scaling
+    solution = solved(data, 1e-10, 5.0, targets=targets)
+    assert isinstance(solution, Assembled)
+    return solution, scaling
 
 
 @pytest.mark.parametrize("seed", range(4))
@@ -45,11 +45,11 @@ def test_groups_reach_the_optimum_of_the_modelling_layer_and_prove_it(seed: int)
     problem = _groups(seed)
     expected = optimum(problem, 1e-8, False)
     assert isinstance(expected, ConeSolution)
-    found, scaling = _solved(problem, "objective")
+    solution, scaling = _solved(problem, "objective")
     rest = float(problem.at_rest)
-    u = problem.limits.into(scaling.unbalance(problem, found.solution))  # type: ignore[attr-defined]
+    u = problem.limits.into(scaling.unbalance(problem, solution.solution))  # type: ignore[attr-defined]
     assert float(problem.objective(u)) == pytest.approx(expected.objective, abs=1e-7 * rest)
-    multipliers = scaling.multipliers(problem, found.solution)  # type: ignore[attr-defined]
+    multipliers = scaling.multipliers(problem, solution.solution)  # type: ignore[attr-defined]
     bound = float(objective_lower_bound(problem, multipliers))
     assert expected.lower_bound - 1e-7 * rest <= bound <= float(problem.objective(u)) + 1e-12
 
@@ -60,10 +60,10 @@ def test_the_least_mass_of_groups_is_proven_by_its_multipliers(seed: int) -> Non
     best = optimum(problem, 1e-8, False)
     assert isinstance(best, ConeSolution)
     target = 0.5 * (best.objective + float(problem.at_rest))
-    found, scaling = _solved(problem, "mass", target, best.mass)
-    u = problem.limits.into(scaling.unbalance(problem, found.solution))  # type: ignore[attr-defined]
+    solution, scaling = _solved(problem, "mass", target, best.mass)
+    u = problem.limits.into(scaling.unbalance(problem, solution.solution))  # type: ignore[attr-defined]
     assert float(problem.objective(u)) <= target * (1 + 1e-7)
-    multipliers = scaling.multipliers(problem, found.solution)  # type: ignore[attr-defined]
+    multipliers = scaling.multipliers(problem, solution.solution)  # type: ignore[attr-defined]
     bound = float(mass_lower_bound(problem, multipliers, np.asarray(target)))
     mass = float(problem.mass(u))
     # what a solver's tolerance leaves of the target, and no more
@@ -75,16 +75,16 @@ def test_ceilings_and_limits_of_every_kind(case: int) -> None:
     problem = random_statement(case, *COMBINATIONS[case])
     expected = optimum(problem, 1e-8, False)
     assert isinstance(expected, ConeSolution)
-    found, scaling = _solved(problem, "objective")
-    multipliers = scaling.multipliers(problem, found.solution)  # type: ignore[attr-defined]
+    solution, scaling = _solved(problem, "objective")
+    multipliers = scaling.multipliers(problem, solution.solution)  # type: ignore[attr-defined]
     bound = float(objective_lower_bound(problem, multipliers))
     assert bound == pytest.approx(expected.lower_bound, abs=1e-6 * float(problem.at_rest))
 
 
 def test_a_target_for_one_group_prices_it() -> None:
     """Analytic: min |u - 3| with |u| <= 1 is 2 at u = 1, and a unit more of the target is worth 1."""
-    one, none = np.ones(1), np.asarray(np.inf)
-    wide = Limits(one, 9.0 * one, np.ones(1, bool), one + 0j, 0.0 * one, one, none)
+    ones, none = np.ones(1), np.asarray(np.inf)
+    wide = Limits(ones, 9.0 * ones, np.ones(1, bool), ones + 0j, 0.0 * ones, ones, none)
     rows = [
         Row(name, (weighted_peak(Response(name, "N", Phasors(np.asarray(co), np.asarray(0j)), np.ones(1)), 1.0),))
         for name, co in (("goal", -3 + 0j), ("kept", 0j))
@@ -92,20 +92,20 @@ def test_a_target_for_one_group_prices_it() -> None:
     problem = statement([rows[:1], rows[1:]], [], wide)
     data, scaling = scale(problem, "objective", 9.0)
     goal = np.array([True, False])
-    found = solved(data, 1e-10, 5.0, goal, [GroupLimit(~goal, 1.0 / scaling.objective)])
-    assert isinstance(found, Assembled)
-    assert scaling.unbalance(problem, found.solution)[0] == pytest.approx(1.0, abs=1e-7)
-    assert found.level * scaling.objective == pytest.approx([2.0, 1.0], abs=1e-7)
-    assert found.price == pytest.approx([1.0], abs=1e-7)
+    solution = solved(data, 1e-10, 5.0, goal, [GroupLimit(~goal, 1.0 / scaling.objective)])
+    assert isinstance(solution, Assembled)
+    assert scaling.unbalance(problem, solution.solution)[0] == pytest.approx(1.0, abs=1e-7)
+    assert solution.level * scaling.objective == pytest.approx([2.0, 1.0], abs=1e-7)
+    assert solution.price == pytest.approx([1.0], abs=1e-7)
     # the rows of the group that is kept have the price of its target
-    assert found.solution.row == pytest.approx([1.0, 1.0], abs=1e-7)
+    assert solution.solution.row == pytest.approx([1.0, 1.0], abs=1e-7)
 
 
 def test_what_no_counterweights_keep_has_no_point() -> None:
     rng = np.random.default_rng(0)
     problem = _groups(0)
     data, _ = scale(problem, "mass", 1.0, target=0.0)
-    found = solved(data, 1e-8, 5.0, targets=[GroupLimit(np.ones(2, bool), -1.0)])
-    assert isinstance(found, NoPoint)
-    assert "ceilings" in found.reason
+    solution = solved(data, 1e-8, 5.0, targets=[GroupLimit(np.ones(2, bool), -1.0)])
+    assert isinstance(solution, NoPoint)
+    assert "ceilings" in solution.reason
     assert problem.objective(random_point(rng, problem.limits)) > 0

@@ -12,19 +12,19 @@ def test_a_boost_maps_the_cone_onto_itself() -> None:
     rng = np.random.default_rng(0)
     vector = rng.normal(size=(50, 2))
     size = np.hypot(*vector.T) * (1.0 + 10.0 ** rng.uniform(-6, 1, 50))
-    found = boosts(size, vector)
-    np.testing.assert_allclose(found, np.swapaxes(found, 1, 2), rtol=1e-14)
-    other = rng.normal(size=(50, 3))
-    image = np.einsum("nij,nj->ni", found, other)
+    actual_boosts = boosts(size, vector)
+    np.testing.assert_allclose(actual_boosts, np.swapaxes(actual_boosts, 1, 2), rtol=1e-14)
+    values = rng.normal(size=(50, 3))
+    image = np.einsum("nij,nj->ni", actual_boosts, values)
     form = np.array([1.0, -1.0, -1.0])
     # of numbers up to 50 squared times 3
-    np.testing.assert_allclose(image**2 @ form, other**2 @ form, atol=1e-10)
+    np.testing.assert_allclose(image**2 @ form, values**2 @ form, atol=1e-10)
 
 
 def test_a_point_near_the_boundary_is_brought_to_the_middle() -> None:
     """Analytic: p = q, so nothing is left of the vector but what the cap of the boost leaves."""
-    found = boosts(np.array([1.0 + 1e-3]), np.array([[0.6, 0.8]]))
-    image = found[0] @ [1.0 + 1e-3, 0.6, 0.8]
+    actual_boosts = boosts(np.array([1.0 + 1e-3]), np.array([[0.6, 0.8]]))
+    image = actual_boosts[0] @ [1.0 + 1e-3, 0.6, 0.8]
     np.testing.assert_allclose(image[1:], 0.0, atol=1e-13)
     assert image[0] == pytest.approx(np.sqrt(2e-3 + 1e-6), rel=1e-12)
     np.testing.assert_array_equal(boosts(np.array([1.0]), np.zeros((1, 2)))[0], np.eye(3))
@@ -46,9 +46,9 @@ def test_a_boosted_program_is_the_same_program() -> None:
     program.cones(np.ones(1), (), np.zeros(2), (dense(0, np.eye(2)),))
     cost = -np.ones(2)
     for about in (None, np.array([0.7071, 0.7071]), np.array([0.0, 1.0])):
-        found = program.solve(cost, 1e-10, 5.0, about)
-        assert isinstance(found, tuple)
-        point, dual = found
+        solution = program.solve(cost, 1e-10, 5.0, about)
+        assert isinstance(solution, tuple)
+        point, dual = solution
         # an objective known to 1e-10 fixes the point to its root
         np.testing.assert_allclose(point, np.sqrt(0.5), atol=1e-5)
         np.testing.assert_allclose(dual, [np.sqrt(2.0), -1.0, -1.0], atol=1e-5)

@@ -31,11 +31,11 @@ def budgeted(seed: int, share: float, sectors: bool, combine: str = "sum", webs:
 def test_a_small_budget_of_many_webs_needs_no_other_method(share: float, sectors: bool) -> None:
     """Regression: at 1e-3 to 1e-2 rounding ended the first stage early, and the cone program answered most."""
     problems = stacked([budgeted(seed, share, sectors) for seed in _SEEDS])
-    found = optima(problems, GAP, True)
-    assert set(found.method) == {INTERIOR_POINT}
-    assert np.all(found.objective - found.lower_bound <= GAP * yardstick(problems))
-    assert np.all(found.mass - found.mass_lower_bound <= 1e-5 * found.mass)
-    assert np.all(found.mass <= problems.limits.max_total_mass * (1 + 1e-12))
+    bound = optima(problems, GAP, True)
+    assert set(bound.method) == {INTERIOR_POINT}
+    assert np.all(bound.objective - bound.lower_bound <= GAP * yardstick(problems))
+    assert np.all(bound.mass - bound.mass_lower_bound <= 1e-5 * bound.mass)
+    assert np.all(bound.mass <= problems.limits.max_total_mass * (1 + 1e-12))
 
 
 @pytest.mark.parametrize("combine", ["sum", "max"])
@@ -43,10 +43,10 @@ def test_the_first_stage_ends_far_below_what_optima_may_differ_by(combine: str) 
     """Regression: 1e-6 of the share of an optimum where it were 0.1, in most of these programs."""
     problems = stacked([budgeted(seed, 3e-3, False, combine) for seed in _SEEDS])
     share = GAP * np.asarray(yardstick(problems))
-    found = stage_solutions(problems, share, share, True)
-    assert found.certified.all()
-    first = problems.objective(found.smallest)
-    assert np.max((first - found.lower_bound) / share) < 1e-4
+    stages = stage_solutions(problems, share, share, True)
+    assert stages.certified.all()
+    first = problems.objective(stages.smallest)
+    assert np.max((first - stages.lower_bound) / share) < 1e-4
 
 
 @pytest.mark.parametrize("share", [1e-3, 1e-2])
@@ -54,7 +54,7 @@ def test_objective_and_mass_agree_with_clarabel(share: float) -> None:
     """Independent: neither point is below the bound of the other."""
     problem = budgeted(7, share, True, webs=100)
     size = float(yardstick(problem))
-    found = optima(problem.alone(), GAP, True).single()
-    other = smallest_objective(problem, 1e-10 * size)
-    assert found.objective >= other.lower_bound - 1e-9 * size
-    assert other.objective >= found.lower_bound - 1e-9 * size
+    solution = optima(problem.alone(), GAP, True).single()
+    objective = smallest_objective(problem, 1e-10 * size)
+    assert solution.objective >= objective.lower_bound - 1e-9 * size
+    assert objective.objective >= solution.lower_bound - 1e-9 * size

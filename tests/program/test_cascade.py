@@ -40,9 +40,9 @@ def test_a_web_alone_is_taken_where_it_is_better_and_keeps_the_ceilings(
     most: float, ceiling: float | None, point: list[float], objective: float
 ) -> None:
     program = _term(most, ceiling)
-    found = _single_term(program, evaluated(program, np.array(point, complex)))
-    assert found.objective == pytest.approx(objective, abs=1e-12)
-    assert found.lower_bound <= found.objective + 1e-12
+    solution = _single_term(program, evaluated(program, np.array(point, complex)))
+    assert solution.objective == pytest.approx(objective, abs=1e-12)
+    assert solution.lower_bound <= solution.objective + 1e-12
 
 
 @pytest.mark.parametrize("least_mass", [True, False])
@@ -53,18 +53,18 @@ def test_ceilings_out_of_reach_are_proven_together_as_by_the_cascade(least_mass:
     share = np.full(len(cases), 0.3)
     share[::3] = 1.0
     program = replace(program, ceilings=replace(program.ceilings, cap=share[:, None] * program.ceilings.cap))
-    found = optima(program, 1e-6, least_mass)
-    assert 2 <= np.count_nonzero(found.unreachable) <= 8
-    assert not found.unreachable[::3].any()
-    for n in found.unreachable.nonzero()[0].tolist():
+    bound = optima(program, 1e-6, least_mass)
+    assert 2 <= np.count_nonzero(bound.unreachable) <= 8
+    assert not bound.unreachable[::3].any()
+    for n in bound.unreachable.nonzero()[0].tolist():
         alone, target = program.subset(n), Target(1e-6, 1e-6, least_mass)
         own = cascade(alone, target, interior_point(alone, target))
         assert own.conflict is not None
-        assert np.array_equal(own.unbalance, found.unbalance[n])
-        assert np.array_equal(own.conflict.ceiling, found.conflict.ceiling[n])
-        assert np.array_equal(own.conflict.row, found.conflict.row[n])
-        assert own.method == found.method[n]
-        assert (own.lower_bound, own.mass_lower_bound) == (found.lower_bound[n], found.mass_lower_bound[n])
-        assert own.mass_target == found.mass_target[n]
+        assert np.array_equal(own.unbalance, bound.unbalance[n])
+        assert np.array_equal(own.conflict.ceiling, bound.conflict.ceiling[n])
+        assert np.array_equal(own.conflict.row, bound.conflict.row[n])
+        assert own.method == bound.method[n]
+        assert (own.lower_bound, own.mass_lower_bound) == (bound.lower_bound[n], bound.mass_lower_bound[n])
+        assert own.mass_target == bound.mass_target[n]
         for name in ("objective", "mass", "excess"):
-            assert getattr(own, name) == pytest.approx(getattr(found, name)[n], rel=1e-13)
+            assert getattr(own, name) == pytest.approx(getattr(bound, name)[n], rel=1e-13)

@@ -48,12 +48,12 @@ def test_bounds_never_exceed_the_value_of_an_admissible_point(seed: int, case: t
 @given(seed=st.integers(0, 10**6), case=st.sampled_from(COMBINATIONS))
 def test_the_best_of_several_proofs_is_the_best_one_by_one(seed: int, case: tuple) -> None:
     problem, rng = random_statement(seed, *case), np.random.default_rng(seed + 1)
-    each = [_random_multipliers(rng, problem) for _ in range(4)]
+    multipliers = [_random_multipliers(rng, problem) for _ in range(4)]
     # what went wrong proves nothing, wherever it stands
-    each.insert(int(rng.integers(5)), each[0].times(np.asarray(np.nan)))
+    multipliers.insert(int(rng.integers(5)), multipliers[0].times(np.asarray(np.nan)))
     # independent: bound by bound
-    single = [float(objective_lower_bound(problem, one)) for one in each]
-    bound, proof = best_proof(problem, each)
+    single = [float(objective_lower_bound(problem, multiplier)) for multiplier in multipliers]
+    bound, proof = best_proof(problem, multipliers)
     assert float(bound) == np.nanmax(single)
     assert objective_lower_bound(problem, proof) == bound
 
@@ -108,9 +108,9 @@ def test_what_is_off_raises_a_bound_by_its_share_of_every_multiplier(term: float
     rows = multipliers.row[problem.row][:, None] * np.abs(norms.influence)
     priced = np.abs(multipliers.ceiling)[:, None] * np.abs(limited.norms.influence)
     expected = term * rows.sum(axis=0) + ceiling * priced.sum(axis=0)
-    found = np.asarray(spread(replace(problem, norms=norms, ceilings=limited), multipliers))
-    assert np.all(found <= expected)
-    np.testing.assert_allclose(np.broadcast_to(found, 3), expected, rtol=1e-13)
+    actual_spread = np.asarray(spread(replace(problem, norms=norms, ceilings=limited), multipliers))
+    assert np.all(actual_spread <= expected)
+    np.testing.assert_allclose(np.broadcast_to(actual_spread, 3), expected, rtol=1e-13)
 
 
 @pytest.mark.parametrize("factor", [2.0**-40, 2.0**40])

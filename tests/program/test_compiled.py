@@ -54,10 +54,10 @@ def formulated(case: Case) -> tuple[Statement, float]:
     return cone_program(request.machine, request.objective, scene.responses, scene.omega_squared), scene.omega_squared
 
 
-def same(one: StageSolutions, n: int, other: StageSolutions, m: int) -> bool:
+def same(solutions: StageSolutions, n: int, second: StageSolutions, m: int) -> bool:
     """Whether all figures but the times agree to the last bit."""
     names = {field.name for field in fields(StageSolutions)} - {"certify_s", "multipliers", "mass_multipliers"}
-    return all(np.array_equal(getattr(one, name)[n], getattr(other, name)[m]) for name in names)
+    return all(np.array_equal(getattr(solutions, name)[n], getattr(second, name)[m]) for name in names)
 
 
 @pytest.mark.parametrize("case", COMBINATIONS)
@@ -75,19 +75,19 @@ def test_a_program_is_solved_the_same_alone_in_a_batch_and_in_any_order(case: tu
 def test_points_and_bounds_agree_with_clarabel(seed: int, case: tuple) -> None:
     """Independent: neither point is below the other's bound, and both keep the limits."""
     problem = random_statement(seed, *case)
-    found = run(problem)
-    other = smallest_objective(problem, 1e-10 * float(yardstick(problem)))
+    stages = run(problem)
+    solution = smallest_objective(problem, 1e-10 * float(yardstick(problem)))
     unit = float(yardstick(problem))
     # the other point may exceed a ceiling within its tolerance, and then be better than allowed
-    assert found.lower_bound[0] <= other.objective + (1e-12 + 1e-8 * bool(problem.ceilings.names)) * unit
-    if found.excess[0] <= CEILING_TOLERANCE:
-        assert other.lower_bound <= found.objective[0] + 1e-7 * unit
-    if found.certified[0]:
-        smallest = float(problem.objective(found.smallest[0]))
-        assert abs(smallest - other.objective) <= (1e-8 + 1e-8 * bool(problem.ceilings.names)) * unit + other.gap
-        assert found.mass_lower_bound[0] <= found.mass[0] <= found.mass_lower_bound[0] * (1 + 1.1e-5) + 1e-12
-        assert found.objective[0] <= smallest + 1.0000001e-6 * unit
-    u, limits = found.unbalance[0], problem.limits
+    assert stages.lower_bound[0] <= solution.objective + (1e-12 + 1e-8 * bool(problem.ceilings.names)) * unit
+    if stages.excess[0] <= CEILING_TOLERANCE:
+        assert solution.lower_bound <= stages.objective[0] + 1e-7 * unit
+    if stages.certified[0]:
+        smallest = float(problem.objective(stages.smallest[0]))
+        assert abs(smallest - solution.objective) <= (1e-8 + 1e-8 * bool(problem.ceilings.names)) * unit + solution.gap
+        assert stages.mass_lower_bound[0] <= stages.mass[0] <= stages.mass_lower_bound[0] * (1 + 1.1e-5) + 1e-12
+        assert stages.objective[0] <= smallest + 1.0000001e-6 * unit
+    u, limits = stages.unbalance[0], problem.limits
     np.testing.assert_allclose(limits.into(u), u, rtol=1e-12, atol=1e-15)
 
 
@@ -96,11 +96,11 @@ def test_units_by_powers_of_two_change_no_step(case: tuple) -> None:
     """Property, to the last bit: also of what no unbalance changes, such as what turns against the shaft."""
     problem, factor = random_statement(3, *case, webs=WEBS), 2.0**30
     norms = replace(problem.norms, constant=problem.norms.constant * factor, influence=problem.norms.influence * factor)
-    found, other = run(problem), run(replace(problem, norms=norms, floor=problem.floor * factor))
-    assert np.array_equal(found.smallest, other.smallest)
-    assert np.array_equal(found.unbalance, other.unbalance)
-    assert np.array_equal(found.certified, other.certified)
-    assert np.array_equal(found.lower_bound * factor, other.lower_bound)
+    stages, process = run(problem), run(replace(problem, norms=norms, floor=problem.floor * factor))
+    assert np.array_equal(stages.smallest, process.smallest)
+    assert np.array_equal(stages.unbalance, process.unbalance)
+    assert np.array_equal(stages.certified, process.certified)
+    assert np.array_equal(stages.lower_bound * factor, process.lower_bound)
 
 
 def test_random_programs_need_no_help() -> None:
@@ -108,11 +108,11 @@ def test_random_programs_need_no_help() -> None:
     sharp, usable, ceilings = [], [], []
     for case in COMBINATIONS:
         batch = stacked([random_statement(seed, *case, webs=WEBS) for seed in range(25)])
-        found, unit = run(batch), yardstick(batch)
-        sharp.append(np.mean(found.certified))
+        stages, unit = run(batch), yardstick(batch)
+        sharp.append(np.mean(stages.certified))
         if batch.ceilings.names:
             ceilings.append(sharp[-1])
-        usable.append(np.mean(batch.objective(found.smallest) - found.lower_bound <= 1e-6 * unit))
+        usable.append(np.mean(batch.objective(stages.smallest) - stages.lower_bound <= 1e-6 * unit))
     assert np.mean(sharp) >= 0.9
     assert np.mean(ceilings) >= 0.9
     assert np.mean(usable) >= 0.99
@@ -125,13 +125,13 @@ def test_bounds_are_below_the_reference(case: Case) -> None:
     problem = problem.only(problem.limits.reach > 0)
     if problem.limits.radius.size == 0:
         return
-    expected, found = _KNOWN[stored.digest(case.body)], run(problem)
+    expected, stages = _KNOWN[stored.digest(case.body)], run(problem)
     assert expected.objective is not None
     unit = float(yardstick(problem)) * square
     slack = 1e-13 * unit + 16 * float(expected.noise)
-    assert found.lower_bound[0] * square <= float(expected.objective) + slack
-    if found.certified[0]:
-        smallest = float(problem.objective(found.smallest[0])) * square
+    assert stages.lower_bound[0] * square <= float(expected.objective) + slack
+    if stages.certified[0]:
+        smallest = float(problem.objective(stages.smallest[0])) * square
         assert smallest <= float(expected.objective) + 1.1e-8 * unit + slack
         assert smallest >= float(expected.relaxed) - slack
 
@@ -176,17 +176,17 @@ def test_what_is_not_certified_goes_to_the_whole_procedure() -> None:
     problems = [random_statement(seed, "sum", (1.0, 1.0), False, False, True, webs=WEBS) for seed in range(4)]
     ceilings = problems[2].ceilings
     problems[2] = replace(problems[2], ceilings=replace(ceilings, cap=-0.1 * ceilings.size))
-    found = optima(stacked(problems), 1e-6, True)
-    assert list(found.unreachable) == [False, False, True, False]
-    assert INTERIOR_POINT in list(found.method[[0, 1, 3]])
-    assert found.excess[2] > 0
+    bound = optima(stacked(problems), 1e-6, True)
+    assert list(bound.unreachable) == [False, False, True, False]
+    assert INTERIOR_POINT in list(bound.method[[0, 1, 3]])
+    assert bound.excess[2] > 0
     for n in (0, 1, 3):
         alone = optimum(problems[n], 1e-6, True)
         assert isinstance(alone, ConeSolution)
-        assert found.method[n] == alone.method
-        assert np.array_equal(found.unbalance[n], alone.unbalance)
+        assert bound.method[n] == alone.method
+        assert np.array_equal(bound.unbalance[n], alone.unbalance)
         # numpy adds the rows of a table in another order than those of one program
-        batch = (found.objective[n], found.lower_bound[n], found.mass[n])
+        batch = (bound.objective[n], bound.lower_bound[n], bound.mass[n])
         assert batch == pytest.approx((alone.objective, alone.lower_bound, alone.mass), rel=1e-14)
 
 
@@ -196,18 +196,18 @@ def test_uncertified_rows_are_solved_by_the_cone_program(monkeypatch: pytest.Mon
     from optimizer.program.methods import single
 
     def doubtful(*arguments: object) -> StageSolutions:
-        found = stage_solutions(*arguments)  # type: ignore[arg-type]
-        doubt = np.arange(found.certified.size) == min(1, found.certified.size - 1)
+        stages = stage_solutions(*arguments)  # type: ignore[arg-type]
+        doubt = np.arange(stages.certified.size) == min(1, stages.certified.size - 1)
         # nothing but rest, or polishing would do
-        smallest, unbalance = (np.where(doubt[:, None], 0.0, u) for u in (found.smallest, found.unbalance))
-        return replace(found, certified=found.certified & ~doubt, smallest=smallest, unbalance=unbalance)
+        smallest, unbalance = (np.where(doubt[:, None], 0.0, u) for u in (stages.smallest, stages.unbalance))
+        return replace(stages, certified=stages.certified & ~doubt, smallest=smallest, unbalance=unbalance)
 
     monkeypatch.setattr(entry, "stage_solutions", doubtful)
     monkeypatch.setattr(single, "stage_solutions", doubtful)
     problems = stacked([random_statement(seed, "sum", (1.0, 0.3), False, False, False, webs=WEBS) for seed in range(3)])
-    found = optima(problems, 1e-6, True)
-    assert list(found.method) == [INTERIOR_POINT, CONE_PROGRAM, INTERIOR_POINT]
-    assert np.all(found.objective - found.lower_bound <= 1e-6 * yardstick(problems))
+    bound = optima(problems, 1e-6, True)
+    assert list(bound.method) == [INTERIOR_POINT, CONE_PROGRAM, INTERIOR_POINT]
+    assert np.all(bound.objective - bound.lower_bound <= 1e-6 * yardstick(problems))
 
 
 def test_every_method_answers_some_program() -> None:
@@ -224,14 +224,14 @@ def test_every_method_answers_some_program() -> None:
         "found/only-two-1e-09-apart-limits-100000",
     ):
         problem, _ = formulated(_HARD[name])
-        asked = _HARD[name].body.get("accuracy", {}).get("relative_gap", 1e-6)
-        found = optimum(problem, asked, True)
-        assert isinstance(found, ConeSolution)
-        assert found.gap <= asked * float(yardstick(problem))
-        methods[found.method] = name
+        relative_gap = _HARD[name].body.get("accuracy", {}).get("relative_gap", 1e-6)
+        solution = optimum(problem, relative_gap, True)
+        assert isinstance(solution, ConeSolution)
+        assert solution.gap <= relative_gap * float(yardstick(problem))
+        methods[solution.method] = name
     # without the least mass the demand is sharper: this one is sharpened by the modelling layer's solver
-    found = optimum(random_statement(24, "max", (1.0, 1.0), True, False, True), 1e-6, False)
-    methods[found.method] = "random"
+    solution = optimum(random_statement(24, "max", (1.0, 1.0), True, False, True), 1e-6, False)
+    methods[solution.method] = "random"
     assert methods.keys() == {CLOSED_FORM, INTERIOR_POINT, CONE_PROGRAM, FIFTY_DIGITS.name}, methods
 
 
@@ -256,10 +256,10 @@ def test_no_programs_at_all() -> None:
 def test_no_webs() -> None:
     """Analytic: the objective at rest."""
     problem = random_statement(3, "sum", (1.0, 1.0), False, False, False, webs=WEBS).only(np.zeros(WEBS, bool))
-    found = optima(stacked([problem] * 2), 1e-6, True)
+    bound = optima(stacked([problem] * 2), 1e-6, True)
     rest = problem.objective(np.zeros(0, complex))
-    assert found.objective == pytest.approx([rest, rest], rel=1e-15)
-    assert np.all(found.objective - found.lower_bound <= 1e-13 * rest)
+    assert bound.objective == pytest.approx([rest, rest], rel=1e-15)
+    assert np.all(bound.objective - bound.lower_bound <= 1e-13 * rest)
 
 
 @pytest.mark.parametrize("limit", ["max_mass", "max_total_mass"])
@@ -268,24 +268,24 @@ def test_limits_of_zero(limit: str) -> None:
     problem = _pair()
     limits = replace(problem.limits, **{limit: 0.0 * getattr(problem.limits, limit)})
     problem = replace(problem, limits=limits)
-    found = optima(problem, 1e-6, True)
+    bound = optima(problem, 1e-6, True)
     rest = problem.objective(np.zeros((2, WEBS), complex))
-    assert found.objective == pytest.approx(rest, rel=1e-15)
-    assert np.all(found.objective - found.lower_bound <= 1e-12 * rest)
-    assert np.all(found.mass == 0.0)
+    assert bound.objective == pytest.approx(rest, rel=1e-15)
+    assert np.all(bound.objective - bound.lower_bound <= 1e-12 * rest)
+    assert np.all(bound.mass == 0.0)
 
 
 def test_a_budget_of_zero_beside_one_of_more() -> None:
     """Analytic: nothing is fitted where nothing may be, and a batch with such a program has no other answers."""
     problem = _pair()
     total = np.array([0.0, 1.0])
-    found = stage_solutions(
+    stages = stage_solutions(
         replace(problem, limits=replace(problem.limits, max_total_mass=total)), np.full(2, 1e-3), np.full(2, 1e-3), True
     )
-    assert np.all(found.unbalance[0] == 0.0)
+    assert np.all(stages.unbalance[0] == 0.0)
     alone = replace(problem, limits=replace(problem.limits, max_total_mass=np.ones(2)))
     assert np.array_equal(
-        found.unbalance[1], stage_solutions(alone, np.full(2, 1e-3), np.full(2, 1e-3), True).unbalance[1]
+        stages.unbalance[1], stage_solutions(alone, np.full(2, 1e-3), np.full(2, 1e-3), True).unbalance[1]
     )
 
 
@@ -304,8 +304,8 @@ def test_no_order_in_memory_is_compiled_anew(order: str) -> None:
         values.flags.writeable = order == "fortran"
         return values
 
-    found = run(replace(problem, limits=mapped(problem.limits, changed)))
-    assert all(same(expected, n, found, n) for n in range(expected.mass.size))
+    stages = run(replace(problem, limits=mapped(problem.limits, changed)))
+    assert all(same(expected, n, stages, n) for n in range(expected.mass.size))
     assert _signatures() == compiled
 
 
@@ -330,11 +330,11 @@ def test_a_web_in_two_halves_is_the_same_web() -> None:
             half_angle_sin=limits.half_angle_sin[:, twice],
         ),
     )
-    one, two = run(problem), run(halves)
-    assert np.all(one.certified & two.certified)
+    stages, two = run(problem), run(halves)
+    assert np.all(stages.certified & two.certified)
     unit = share(problem)[0]
-    assert two.objective == pytest.approx(one.objective, abs=1e-2 * unit)
-    assert two.mass == pytest.approx(one.mass, rel=1e-5)
+    assert two.objective == pytest.approx(stages.objective, abs=1e-2 * unit)
+    assert two.mass == pytest.approx(stages.mass, rel=1e-5)
 
 
 @pytest.mark.parametrize("part", ["constant", "influence"])

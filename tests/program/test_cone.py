@@ -50,20 +50,24 @@ def test_matrices_are_the_same_program(combine: str, sectors: bool, budget: bool
         matrices = solved(data, 1e-10, np.inf, targets=(whole,) if stage == "mass" else ())
         assert isinstance(matrices, Assembled)
         if stage == "objective":
-            one, other = (_objective(statement, found, scaling) for found in (model, matrices.solution))
+            objective, second_objective = (
+                _objective(statement, solution, scaling) for solution in (model, matrices.solution)
+            )
         else:
-            one, other = (_mass(statement, found, scaling) for found in (model, matrices.solution))
-        assert one == pytest.approx(other, rel=1e-6)
+            objective, second_objective = (
+                _mass(statement, solution, scaling) for solution in (model, matrices.solution)
+            )
+        assert objective == pytest.approx(second_objective, rel=1e-6)
 
 
-def _objective(statement: Statement, found: ScaledSolution | None, scaling: Scaling) -> float:
-    assert found is not None
-    return float(statement.objective(scaling.unbalance(statement, found)))
+def _objective(statement: Statement, solution: ScaledSolution | None, scaling: Scaling) -> float:
+    assert solution is not None
+    return float(statement.objective(scaling.unbalance(statement, solution)))
 
 
-def _mass(statement: Statement, found: ScaledSolution | None, scaling: Scaling) -> float:
-    assert found is not None
-    return float(statement.mass(scaling.unbalance(statement, found)))
+def _mass(statement: Statement, solution: ScaledSolution | None, scaling: Scaling) -> float:
+    assert solution is not None
+    return float(statement.mass(scaling.unbalance(statement, solution)))
 
 
 def test_threads_beside_one_another_get_the_answers_of_one() -> None:
@@ -71,5 +75,5 @@ def test_threads_beside_one_another_get_the_answers_of_one() -> None:
     alone = [smallest_objective(problem, 1e-9) for problem in problems]
     with ThreadPoolExecutor(4) as threads:
         together = list(threads.map(lambda problem: smallest_objective(problem, 1e-9), problems))
-    for one, other in zip(alone, together, strict=True):
-        assert np.array_equal(one.unbalance, other.unbalance)
+    for solution, second_solution in zip(alone, together, strict=True):
+        assert np.array_equal(solution.unbalance, second_solution.unbalance)

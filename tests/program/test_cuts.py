@@ -26,7 +26,7 @@ from tests.responses.fourier import FourierCurves
 ANGLES = np.deg2rad(np.arange(0.0, 360.0, 0.1))
 
 
-def found(program: Problem, gap: float = 1e-6, least_mass: bool = False) -> CertifiedOptimum:
+def optimum_of(program: Problem, gap: float = 1e-6, least_mass: bool = False) -> CertifiedOptimum:
     outcome = over_turn(program, gap, least_mass)
     assert isinstance(outcome, CertifiedOptimum)
     return outcome
@@ -34,15 +34,15 @@ def found(program: Problem, gap: float = 1e-6, least_mass: bool = False) -> Cert
 
 def sampled(program: Problem, u: Complex) -> Real:
     """Peaks at 3,600 angles (quantities,)."""
-    each = [quantity.response for quantity in program.quantities]
-    return np.array([np.max(np.abs(response.at(ANGLES) + response.offset(u))) for response in each])
+    responses = [quantity.response for quantity in program.quantities]
+    return np.array([np.max(np.abs(response.at(ANGLES) + response.offset(u))) for response in responses])
 
 
 @pytest.mark.parametrize("seed", range(3))
 def test_the_optimum_is_the_largest_floor_where_no_limit_binds(seed: int) -> None:
     """Analytic: with influences of full row rank every circle can be centred by itself, and none can be left."""
     program = bearings(seed, limits=wide(6))
-    best = found(program)
+    best = optimum_of(program)
     expected = max(floor(quantity.response, 1e-9).circle.radius for quantity in program.quantities)
     rest = float(program.yardsticks[0])
     assert best.goals[-1].value == pytest.approx(expected, abs=1e-6 * rest)
@@ -55,7 +55,7 @@ def test_the_optimum_is_the_largest_floor_where_no_limit_binds(seed: int) -> Non
 def test_the_bound_is_that_of_the_program_at_fine_angles(seed: int, beside: bool) -> None:
     """Independent: the same program at 720 angles in the modelling layer, a relaxation, by another formulation."""
     program = bearings(seed, count=3, webs=4, beside=beside)
-    best = found(program)
+    best = optimum_of(program)
     u, limits = cp.Variable(4, complex=True), program.limits
     angles = ANGLES[::5]
     peaks = [
@@ -83,7 +83,7 @@ def test_the_bound_is_that_of_the_program_at_fine_angles(seed: int, beside: bool
 @given(seed=st.integers(0, 10**6), beside=st.booleans(), rms=st.booleans())
 def test_bounds_are_never_above_what_another_point_comes_to(seed: int, beside: bool, rms: bool) -> None:
     program = bearings(seed, count=3, webs=3, beside=beside, measure="rms" if rms else "peak")
-    best = found(program, 1e-4, least_mass=True)
+    best = optimum_of(program, 1e-4, least_mass=True)
     assert best.proof is not None
     assert best.mass_proof is not None
     rng = np.random.default_rng(seed + 1)
@@ -103,7 +103,7 @@ def test_bounds_are_never_above_what_another_point_comes_to(seed: int, beside: b
 
 @pytest.mark.parametrize("seed", range(3))
 def test_a_mass_is_proven_for_all_that_come_to_more_at_its_price(seed: int) -> None:
-    best = found(bearings(seed, count=3, webs=3), 1e-4, least_mass=True)
+    best = optimum_of(bearings(seed, count=3, webs=3), 1e-4, least_mass=True)
     assert best.mass_proof is not None
     assert best.counting(0.5 * best.mass_target) is best
     value = best.mass_target * (1.0 + 1e-6)
@@ -122,7 +122,7 @@ def test_a_mass_is_proven_for_all_that_come_to_more_at_its_price(seed: int) -> N
 @pytest.mark.parametrize("seed", range(3))
 def test_brute_force_never_beats_the_bracket(seed: int) -> None:
     program = bearings(seed)
-    best = found(program)
+    best = optimum_of(program)
     brute = float(np.max(sampled(program, best.point.unbalance)))
     assert brute <= best.goals[-1].value
     assert brute == pytest.approx(best.goals[-1].value, rel=1e-3)
@@ -132,9 +132,9 @@ def test_brute_force_never_beats_the_bracket(seed: int) -> None:
 @pytest.mark.parametrize("seed", range(4))
 def test_the_least_mass_is_proven(seed: int, measure: str) -> None:
     program = bearings(seed, measure=measure)
-    heavy, light = found(program), found(program, least_mass=True)
+    heavy, light = optimum_of(program), optimum_of(program, least_mass=True)
     assert light.mass_proof is not None
-    assert not any(each.timed_out for each in (heavy, light))
+    assert not any(optimum.timed_out for optimum in (heavy, light))
     assert light.point.mass <= heavy.point.mass * (1 + 1e-6)
     rest = float(program.yardsticks[0])
     assert light.point.values.goals[-1] - light.goals[-1].lower_bound <= 1e-6 * rest
@@ -145,7 +145,7 @@ def test_the_root_mean_square_of_one_curve_is_centred() -> None:
     """Analytic: sqrt(V + |mean + u|^2) is smallest, sqrt(V), where u is minus the mean."""
     program = bearings(0, count=1, webs=1, measure="rms", limits=wide(1))
     quantity = program.quantities[0]
-    best = found(program, 1e-9)
+    best = optimum_of(program, 1e-9)
     assert best.goals[-1].value == pytest.approx(np.sqrt(quantity.response.variance), rel=1e-9)
     # independent: the mean square of samples
     series = quantity.response.at(ANGLES) + quantity.response.offset(best.point.unbalance)
@@ -165,7 +165,7 @@ def test_what_a_root_mean_square_may_be_off_by_opens_the_gap() -> None:
     curves = quantity.response.curves
     assert isinstance(curves, FourierCurves)
     response = replace(quantity.response, curves=Uncertain(curves.order, curves.coefficient))
-    best = found(replace(program, quantities=(replace(quantity, response=response),)), 1e-9)
+    best = optimum_of(replace(program, quantities=(replace(quantity, response=response),)), 1e-9)
     least = np.sqrt(response.variance)
     assert best.goals[-1].value == pytest.approx(least + 0.01, rel=1e-9)
     assert best.goals[-1].lower_bound == pytest.approx(least - 0.01, rel=1e-9)
@@ -175,18 +175,18 @@ def test_what_a_root_mean_square_may_be_off_by_opens_the_gap() -> None:
 def test_root_mean_squares_agree_with_the_modelling_layer(seed: int) -> None:
     """Independent: norms with a component that stays."""
     program = bearings(seed, count=3, webs=2, measure="rms", limits=wide(2))
-    best = found(program)
+    best = optimum_of(program)
     u = cp.Variable(2, complex=True)
-    each = [
+    norms = [
         cp.norm(cp.hstack([q.spread, cp.abs(q.response.mean + q.response.influence @ u)])) for q in program.quantities
     ]
-    expected = cp.Problem(cp.Minimize(cp.max(cp.hstack(each)))).solve(solver=cp.CLARABEL)
+    expected = cp.Problem(cp.Minimize(cp.max(cp.hstack(norms)))).solve(solver=cp.CLARABEL)
     assert best.goals[-1].value == pytest.approx(expected, rel=1e-6)
 
 
 def limited(program: Problem, factor: float) -> Problem:
     """Ceilings at a multiple of the smallest largest peak, and force and moment as the goal."""
-    least = found(program).goals[-1].value
+    least = optimum_of(program).goals[-1].value
     rng = np.random.default_rng(1)
     goal = Goal("external", (force_and_moment(rng, program.limits.radius.size),))
     caps = tuple((q, factor * least) for q in range(len(program.quantities)))
@@ -197,7 +197,7 @@ def limited(program: Problem, factor: float) -> Problem:
 def test_ceilings_on_bearings_are_kept(seed: int) -> None:
     free = bearings(seed)
     program = limited(free, 1.1)
-    best = found(program, least_mass=True)
+    best = optimum_of(program, least_mass=True)
     rest = float(program.yardsticks[0])
     assert best.point.values.excess <= CEILING_ROUNDING
     assert np.all(sampled(program, best.point.unbalance) <= [cap * (1 + 1e-12) for _, cap in program.limited])
@@ -205,7 +205,7 @@ def test_ceilings_on_bearings_are_kept(seed: int) -> None:
     assert best.mass_proof is not None
     assert 0 <= best.point.mass - best.mass_proof.bound <= 1e-4 * best.point.mass
     # looser ceilings never cost more
-    assert found(limited(free, 2.0)).goals[-1].lower_bound <= best.goals[-1].value
+    assert optimum_of(limited(free, 2.0)).goals[-1].lower_bound <= best.goals[-1].value
 
 
 def test_ceilings_below_the_floors_are_out_of_reach() -> None:
@@ -222,21 +222,21 @@ def priorities(seed: int, allowance: float) -> tuple[Problem, CertifiedOptimum]:
     every = quantities(rng, 3, 4)
     first = Goal("external", (force_and_moment(rng, 4),), allowance=allowance)
     program = Problem(every, (first, Goal("bearings", (largest(0, 3),))), (), (), wide(4, 5.0))
-    return program, found(program, least_mass=True)
+    return program, optimum_of(program, least_mass=True)
 
 
 @pytest.mark.parametrize("seed", range(3))
 def test_goals_are_met_in_their_order(seed: int) -> None:
     program, best = priorities(seed, 1e-3)
     external, carried = best.goals
-    alone = found(program.alone(0))
+    alone = optimum_of(program.alone(0))
     assert external.value == pytest.approx(alone.goals[0].value, abs=1e-6 * float(program.yardsticks[0]))
     values = best.point.values.goals
     assert values[0] <= external.most
     assert external.most - external.lower_bound <= 1.001e-3 * program.yardsticks[0]
     assert values[1] - carried.lower_bound <= 1e-6 * program.yardsticks[1]
     # nothing that keeps the first goal is better, and what need not keep it is no worse
-    assert found(program.alone(1)).goals[0].lower_bound <= carried.value
+    assert optimum_of(program.alone(1)).goals[0].lower_bound <= carried.value
     _, easier = priorities(seed, 0.2)
     assert easier.goals[1].lower_bound <= carried.value
     assert best.mass_proof is not None
@@ -245,7 +245,7 @@ def test_goals_are_met_in_their_order(seed: int) -> None:
 
 def test_a_share_of_everything_makes_the_second_goal_the_only_one() -> None:
     program, best = priorities(0, 100.0)
-    alone = found(program.alone(1))
+    alone = optimum_of(program.alone(1))
     assert best.goals[1].value == pytest.approx(alone.goals[0].value, abs=2e-6 * float(program.yardsticks[1]))
 
 
@@ -259,7 +259,7 @@ def test_a_solver_that_finds_nothing_is_asked_in_every_way_once(
     program = bearings(1)
     if ceiling is not None:
         program = program.changed(limited=tuple((q, ceiling) for q in range(len(program.quantities))))
-    best = found(program)
+    best = optimum_of(program)
     assert tuple(tried) == attempts
     assert not np.any(best.point.unbalance)
     assert 0.0 <= best.goals[-1].lower_bound < best.goals[-1].value

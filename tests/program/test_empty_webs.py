@@ -17,7 +17,7 @@ from tests.program.test_settled import in_planes
 
 
 def _point(objective: float = 1.0, mass: float = 2.0, excess: float = 0.0) -> Points:
-    return Points(np.zeros((1, 2), complex), *(np.array([each]) for each in (objective, mass, excess, 1e-12)))
+    return Points(np.zeros((1, 2), complex), *(np.array([value]) for value in (objective, mass, excess, 1e-12)))
 
 
 @pytest.mark.parametrize(
@@ -47,20 +47,20 @@ def test_webs_that_are_not_alike_are_emptied_one_by_one() -> None:
 def test_without_dust_a_point_is_as_heavy_as_may_be_claimed(least_mass: bool, monkeypatch: pytest.MonkeyPatch) -> None:
     """Analytic: nine tenths of the gap that a mass may have; the objective no further than its own target."""
     program = in_planes([-1.0, 1.0, 0.3]).alone()
-    found = optima(program, 1e-6, True)
+    actual_optima = optima(program, 1e-6, True)
     dusty = np.array([[-2.0, -2.5, 1e-9]]) + 0j
     objective, mass = program.objective(dusty), program.mass(dusty)
-    found = replace(found, unbalance=dusty, objective=objective, mass=mass, clean=np.zeros(1, bool))
-    found.mass_lower_bound[:], found.mass_target[:], found.lower_bound[:] = 4.6, 9.0, 1.0
-    asked = []
+    variant = replace(actual_optima, unbalance=dusty, objective=objective, mass=mass, clean=np.zeros(1, bool))
+    variant.mass_lower_bound[:], variant.mass_target[:], variant.lower_bound[:] = 4.6, 9.0, 1.0
+    entries = []
 
     def nowhere(_: object, empty: np.ndarray, optimum: Optimum, *rest: object) -> tuple[Points, np.ndarray]:
-        asked.append(optimum)
+        entries.append(optimum)
         return points_at(program, dusty), np.zeros(len(empty), bool)
 
     monkeypatch.setattr(empty_webs, "_without", nowhere)
-    leave_empty(program, found, np.array([0.5]), least_mass)
-    optimum = asked[0]
+    leave_empty(program, variant, np.array([0.5]), least_mass)
+    optimum = entries[0]
     assert optimum.mass == pytest.approx([4.6 / (1.0 - 0.9 * MASS_GAP) if least_mass else np.inf], rel=1e-14)
     assert optimum.excess == [CEILING_ROUNDING]
     assert optimum.objective == pytest.approx(max(1.0 + empty_webs.TARGET * 0.5, float(program.objective(dusty)[0])))
@@ -70,29 +70,29 @@ def test_without_dust_a_point_is_as_heavy_as_may_be_claimed(least_mass: bool, mo
 def test_webs_are_left_empty_in_many_programs_at_once_as_in_each_alone() -> None:
     """Programs with dust on one web, on another and on two, and one with none: to the last bit as each by itself."""
     program = in_planes([-1.0, 1.0, 0.3, 0.7]).alone().subset(np.zeros(4, np.int64))
-    found, share = optima(program, 1e-6, True), np.full(4, 0.5)
+    solutions, share = optima(program, 1e-6, True), np.full(4, 0.5)
     dust = np.array([[1e-9, 0, 0, 0], [0, 0, 1e-9, 0], [0, 1e-9, 1e-9, 0], [0, 0, 0, 0]])
     dusty = np.array([-2.0, -2.5, -1.0, -1.5]) * (dust == 0) + dust + 0j
     objective = program.objective(dusty)
     mass, clean = program.mass(dusty), np.zeros(4, bool)
-    found = replace(found, unbalance=dusty, objective=objective, mass=mass, clean=clean)
-    found.lower_bound[:], found.mass_lower_bound[:], found.mass_target[:] = objective, 1e-3, objective + 1.0
-    alone = [found.subset(np.array([n])) for n in range(4)]
-    leave_empty(program, found, share, True)
-    for n, each in enumerate(alone):
-        leave_empty(program.subset(np.array([n])), each, share[[n]], True)
-        assert np.array_equal(each.unbalance[0], found.unbalance[n])
-        assert each.objective[0] == found.objective[n]
-        assert each.mass[0] == found.mass[n]
-    assert ((found.unbalance == 0) >= (dust > 0)).all()
-    assert np.array_equal(found.unbalance[3], dusty[3])
+    solutions = replace(solutions, unbalance=dusty, objective=objective, mass=mass, clean=clean)
+    solutions.lower_bound[:], solutions.mass_lower_bound[:], solutions.mass_target[:] = objective, 1e-3, objective + 1.0
+    alone = [solutions.subset(np.array([n])) for n in range(4)]
+    leave_empty(program, solutions, share, True)
+    for n, optimum in enumerate(alone):
+        leave_empty(program.subset(np.array([n])), optimum, share[[n]], True)
+        assert np.array_equal(optimum.unbalance[0], solutions.unbalance[n])
+        assert optimum.objective[0] == solutions.objective[n]
+        assert optimum.mass[0] == solutions.mass[n]
+    assert ((solutions.unbalance == 0) >= (dust > 0)).all()
+    assert np.array_equal(solutions.unbalance[3], dusty[3])
 
 
 class _Noted(cuts.EmptyWebs):
     """Searches that find what they are told to, and note what was to be empty."""
 
-    def __init__(self, found: dict[tuple[int, ...], list[float]]) -> None:
-        object.__setattr__(self, "found", found)
+    def __init__(self, fields: dict[tuple[int, ...], list[float]]) -> None:
+        object.__setattr__(self, "found", fields)
         object.__setattr__(self, "tried", [])
         object.__setattr__(
             self, "program", SimpleNamespace(limits=SimpleNamespace(radius=np.array([1.0, 1.0, 2.0, 1.0])))
@@ -101,7 +101,7 @@ class _Noted(cuts.EmptyWebs):
     def _without(self, empty: np.ndarray, point: cuts.Point) -> cuts.Point | None:
         key = tuple(np.flatnonzero(empty).tolist())
         self.tried.append(key)
-        return _at(self.found[key]) if key in self.found else None
+        return _at(self.optima[key]) if key in self.optima else None
 
 
 def _at(masses: list[float]) -> cuts.Point:
@@ -109,7 +109,7 @@ def _at(masses: list[float]) -> cuts.Point:
 
 
 @pytest.mark.parametrize(
-    ("masses", "found", "tried", "left"),
+    ("masses", "fields", "tried", "left"),
     [
         ([1.0, 2.0, 0.0, 3.0], {}, [], [1.0, 2.0, 0.0, 3.0]),
         # all of it at once, and what is only then next to nothing
@@ -126,8 +126,8 @@ def _at(masses: list[float]) -> cuts.Point:
     ],
 )
 def test_over_the_turn_webs_are_left_empty_together_or_one_by_one(
-    masses: list[float], found: dict[tuple[int, ...], list[float]], tried: list[tuple[int, ...]], left: list[float]
+    masses: list[float], fields: dict[tuple[int, ...], list[float]], tried: list[tuple[int, ...]], left: list[float]
 ) -> None:
-    search = _Noted(found)
+    search = _Noted(fields)
     assert search.leave(_at(masses)).unbalance.tolist() == _at(left).unbalance.tolist()
     assert search.tried == tried

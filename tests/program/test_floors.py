@@ -17,9 +17,9 @@ def test_floors_are_proven_whatever_the_limits(beside: bool) -> None:
     posed = program.outer(program.first)
     expected = max(smallest_circle(np.array([cut.constant for cut in cuts])).radius for cuts in program.first)
     expected += sum(peak.floor for group in program.groups for row in group.rows for peak in row.peaks)
-    found = objective_lower_bound(posed, floor_multipliers(program, program.first, posed))
+    bound = objective_lower_bound(posed, floor_multipliers(program, program.first, posed))
     # slopes cancel to rounding, times a reach of 1e9 kg
-    assert found == pytest.approx(expected, rel=1e-5)
+    assert bound == pytest.approx(expected, rel=1e-5)
     rng = np.random.default_rng(0)
     for _ in range(5):
-        assert found <= program.values(random_point(rng, wide(6)), 1e-9).goals[0]
+        assert bound <= program.values(random_point(rng, wide(6)), 1e-9).goals[0]

@@ -23,17 +23,22 @@ from tests.program.test_loops import KINDS, program
 SHARES = Shares(1.0 - 1e-7, 1e-2, 1e-5, HEAVIER, CEILING_ROUNDING, CEILING_TOLERANCE)
 
 
-def _one_by_one(
-    one: Statement, share: float, demand: float, ends: list[Complex], dual: Multipliers, of_mass: Multipliers | None
+def _separately(
+    statement: Statement,
+    share: float,
+    demand: float,
+    ends: list[Complex],
+    dual: Multipliers,
+    of_mass: Multipliers | None,
 ) -> list[Any]:
     """Of a program that is the only one of an axis: as the lightest optimum is defined."""
-    lower, proof = best_proof(one, [dual, *resting_multipliers(one)])
-    rest, first, light = (points_at(one, u[None]) for u in (np.zeros(WEBS, complex), *ends))
-    kept = first.excess <= CEILING_TOLERANCE, rest.excess <= CEILING_TOLERANCE
-    if kept[0] and kept[1]:
+    lower, proof = best_proof(statement, [dual, *resting_multipliers(statement)])
+    rest, first, light = (points_at(statement, u[None]) for u in (np.zeros(WEBS, complex), *ends))
+    pair = first.excess <= CEILING_TOLERANCE, rest.excess <= CEILING_TOLERANCE
+    if pair[0] and pair[1]:
         best = first if first.objective < rest.objective else rest
     else:
-        best = first if kept[0] or (not kept[1] and first.excess < rest.excess) else rest
+        best = first if pair[0] or (not pair[1] and first.excess < rest.excess) else rest
     target = np.maximum(best.objective, lower + SHARES.target * share - best.rounding)
     counted, chosen, bound = np.maximum(best.objective, lower) + share, best, np.zeros(1)
     if of_mass is not None:
@@ -41,19 +46,19 @@ def _one_by_one(
         over, fall = light.objective - target + best.rounding, light.objective - best.objective
         points = [light, rest]
         if over > 0 and fall > over:
-            points.insert(1, points_at(one, light.unbalance + over / fall * (best.unbalance - light.unbalance)))
+            points.insert(1, points_at(statement, light.unbalance + over / fall * (best.unbalance - light.unbalance)))
         for point in points:
             if point.mass < chosen.mass and point.objective <= target and point.excess <= excess:
                 chosen = point
-        bound = mass_lower_bound(one, of_mass, counted)
+        bound = mass_lower_bound(statement, of_mass, counted)
     loose = demand > share and chosen.objective - lower <= demand
     certified = (loose or best.objective - lower <= SHARES.enough * share) and chosen.excess <= CEILING_ROUNDING
     if of_mass is not None:
         certified = certified and best.excess <= CEILING_ROUNDING
         certified = certified and chosen.mass - bound <= SHARES.mass_enough * chosen.mass
     most = target if of_mass is not None else lower + SHARES.enough * share
-    final: Points = snap_to_limits(one, chosen, most, bound if of_mass is not None else None)
-    clean = ~has_dust(one.limits, final.unbalance)
+    final: Points = snap_to_limits(statement, chosen, most, bound if of_mass is not None else None)
+    clean = ~has_dust(statement.limits, final.unbalance)
     return [best.unbalance, *final, *proof.parts, lower, bound, counted, np.array([certified]).reshape(1), clean]
 
 
@@ -67,13 +72,18 @@ def test_what_is_judged_together_is_what_is_judged_one_by_one(seeds: list[int], 
     at_rest = whole.at_rest
     share, demand = at_rest * rng.choice([1e-3, 0.3, 2.0], count), at_rest * rng.choice([1e-4, 1.0, 4.0], count)
     ends = [
-        np.array([rng.choice([0.0, 0.3, 1.0]) * random_point(rng, one.limits) for one in programs]) for _ in range(2)
+        np.array([rng.choice([0.0, 0.3, 1.0]) * random_point(rng, statement.limits) for statement in programs])
+        for _ in range(2)
     ]
-    duals = [[_multipliers(seed + more, one) for seed, one in zip(seeds, programs, strict=False)] for more in (0, 1)]
+    duals = [
+        [_multipliers(seed + more, statement) for seed, statement in zip(seeds, programs, strict=False)]
+        for more in (0, 1)
+    ]
     proof, of_mass = (
-        Multipliers(*(np.stack(parts) for parts in zip(*(each.parts for each in some), strict=True))) for some in duals
+        Multipliers(*(np.stack(parts) for parts in zip(*(multiplier.parts for multiplier in some), strict=True)))
+        for some in duals
     )
-    found = whole.flat.judge(
+    judgement = whole.flat.judge(
         share,
         demand,
         whole.constant_sizes,
@@ -83,18 +93,18 @@ def test_what_is_judged_together_is_what_is_judged_one_by_one(seeds: list[int], 
         of_mass.parts if least else None,
         RUNGS,
     )
-    for n, one in enumerate(programs):
-        expected = _one_by_one(
-            one.alone(),
+    for n, first_program in enumerate(programs):
+        expected = _separately(
+            first_program.alone(),
             share[n],
             demand[n],
             [end[n] for end in ends],
             _alone(proof, n),
             _alone(of_mass, n) if least else None,
         )
-        mine = [found.smallest, found.unbalance, *found.figures, *found.proof, *found[4:]]
-        for part, other in zip(mine, expected, strict=True):
-            np.testing.assert_array_equal(part[n], np.reshape(other, part[n : n + 1].shape)[0])
+        mine = [judgement.smallest, judgement.unbalance, *judgement.figures, *judgement.proof, *judgement[4:]]
+        for part, second in zip(mine, expected, strict=True):
+            np.testing.assert_array_equal(part[n], np.reshape(second, part[n : n + 1].shape)[0])
 
 
 def _alone(several: Multipliers, n: int) -> Multipliers:
@@ -104,12 +114,12 @@ def _alone(several: Multipliers, n: int) -> Multipliers:
 @pytest.mark.parametrize("least", [False, True])
 def test_a_point_that_is_no_number_is_not_taken(least: bool) -> None:
     """Analytic: rest is what is left, and nothing heavier is certified."""
-    made = program(4, (False, {"ceiling"}, None))
-    one, dual = made.alone(), tuple(part[None] for part in _multipliers(1, made).parts)
+    statement = program(4, (False, {"ceiling"}, None))
+    actual_statement, dual = statement.alone(), tuple(part[None] for part in _multipliers(1, statement).parts)
     nowhere, first = np.full((1, WEBS), np.nan + 0j), np.ones(1)
-    found = one.flat.judge(
-        first, first, one.constant_sizes, SHARES, (nowhere, nowhere), dual, dual if least else None, RUNGS
+    judgement = actual_statement.flat.judge(
+        first, first, actual_statement.constant_sizes, SHARES, (nowhere, nowhere), dual, dual if least else None, RUNGS
     )
-    assert not np.any(found.smallest)
-    assert not np.any(found.unbalance)
-    assert found.figures[0] == pytest.approx(one.at_rest)
+    assert not np.any(judgement.smallest)
+    assert not np.any(judgement.unbalance)
+    assert judgement.figures[0] == pytest.approx(actual_statement.at_rest)

@@ -38,18 +38,18 @@ def _program(seed: int, kind: str) -> Statement:
     """Four rows, of groups in twos where there are any; terms scatter, or are scalars, by the kind."""
     rng = np.random.default_rng(seed)
     limits = random_limits(rng, WEBS, sectors="sector" in kind, budget="budget" in kind)
-    responses = [each for _ in range(2) for each in random_responses(rng, WEBS)]
-    peaks = [weighted_peak(each, 1.0 + n, 1.0, 0.4) for n, each in enumerate(responses)]
-    allowed = [(each, 2.0 + n) for n, each in enumerate(responses[:2])] if "ceiling" in kind else []
-    made = statement(combined(peaks, "max"), allowed, limits)
-    floor = rng.uniform(0.0, 0.5, made.floor.shape)
+    responses = [response for _ in range(2) for response in random_responses(rng, WEBS)]
+    peaks = [weighted_peak(response, 1.0 + n, 1.0, 0.4) for n, response in enumerate(responses)]
+    allowed = [(response, 2.0 + n) for n, response in enumerate(responses[:2])] if "ceiling" in kind else []
+    actual_statement = statement(combined(peaks, "max"), allowed, limits)
+    floor = rng.uniform(0.0, 0.5, actual_statement.floor.shape)
     norms = replace(
-        made.norms,
+        actual_statement.norms,
         scatter=0.1 if "scatter" in kind else 0.0,
-        scalar=tuple(n % 3 == 0 for n in range(made.row.size)) if "scalar" in kind else (),
+        scalar=tuple(n % 3 == 0 for n in range(actual_statement.row.size)) if "scalar" in kind else (),
     )
-    group = np.array([0, 0, 1, 1]) if "group" in kind else made.group
-    return replace(made, floor=floor, norms=norms, group=group)
+    group = np.array([0, 0, 1, 1]) if "group" in kind else actual_statement.group
+    return replace(actual_statement, floor=floor, norms=norms, group=group)
 
 
 def _multipliers(seed: int, program: Statement) -> Multipliers:
@@ -77,19 +77,19 @@ Function = Callable[[Statement, Complex, Multipliers], Any]
 
 def _claimed(program: Statement, u: Complex, multipliers: Multipliers) -> Any:
     bound, mass = 0.9 * program.objective(u), program.mass(u)
-    found = verdict(claim(program, u, mass, bound, multipliers, 0.7 * mass), 1e-2)
+    certificate = verdict(claim(program, u, mass, bound, multipliers, 0.7 * mass), 1e-2)
     return [
-        found.lower_bound,
-        found.gap,
-        found.relative_gap,
-        found.mass_lower_bound,
-        found.mass_gap,
-        found.mass_yardstick,
+        certificate.lower_bound,
+        certificate.gap,
+        certificate.relative_gap,
+        certificate.mass_lower_bound,
+        certificate.mass_gap,
+        certificate.mass_yardstick,
     ]
 
 
 def _certified(program: Statement, u: Complex, multipliers: Multipliers) -> Any:
-    usable, known = normalised(program, multipliers)
+    usable, scale = normalised(program, multipliers)
     excess = np.abs(u[..., : len(program.ceilings.names)])
     return [
         objective_lower_bound(program, multipliers),
@@ -98,7 +98,7 @@ def _certified(program: Statement, u: Complex, multipliers: Multipliers) -> Any:
         tolerance_allowance(program, multipliers),
         ceiling_allowance(program, multipliers, excess),
         *(budget_price(program, usable, cost) for cost in (0.0, 1.0)),
-        usable.term, usable.row, usable.ceiling, known, multipliers.price(program),
+        usable.term, usable.row, usable.ceiling, scale, multipliers.price(program),
         best_proof(program, [multipliers, *resting_multipliers(program)])[0],
         spread(program, multipliers) + np.zeros(u.shape),
     ]  # fmt: skip
@@ -111,7 +111,7 @@ FUNCTIONS: dict[str, Function] = {
     ],
     "limits": lambda program, u, _: [
         program.limits.reach, program.limits.most, program.limits.budget_ends, *program.limits.spent(np.abs(u)),
-        *(each(3.0 * u) for each in (program.limits.into, program.limits.support, program.limits.opening)),
+        *(support(3.0 * u) for support in (program.limits.into, program.limits.support, program.limits.opening)),
     ],
     "excess": lambda program, u, _: [
         program.ceilings.excess(u)[..., : max(1, len(program.ceilings.names))], points_at(program, u).excess,
@@ -138,8 +138,10 @@ FUNCTIONS: dict[str, Function] = {
 @pytest.mark.parametrize("name", FUNCTIONS)
 def test_programs_together_are_as_each_alone(name: str, kind: str) -> None:
     alone = [_program(seed, kind) for seed in range(6)]
-    points = [random_point(np.random.default_rng(seed), one.limits) for seed, one in enumerate(alone)]
-    proofs = [_multipliers(seed, one) for seed, one in enumerate(alone)]
+    points = [
+        random_point(np.random.default_rng(seed), alone_statement.limits) for seed, alone_statement in enumerate(alone)
+    ]
+    proofs = [_multipliers(seed, alone_statement) for seed, alone_statement in enumerate(alone)]
     together = stacked(alone)
     wide = replace(
         together,
@@ -149,14 +151,14 @@ def test_programs_together_are_as_each_alone(name: str, kind: str) -> None:
         limits=mapped(together.limits, _wide),
     )
     proof = Multipliers(
-        *(_wide(np.stack(parts)) for parts in zip(*(vars(one).values() for one in proofs), strict=True))
+        *(_wide(np.stack(parts)) for parts in zip(*(vars(multipliers).values() for multipliers in proofs), strict=True))
     )
     function = FUNCTIONS[name]
-    found = function(wide, _wide(np.stack(points)), proof)
-    each = [function(*one) for one in zip(alone, points, proofs, strict=True)]
-    assert len(found) == len(each[0]) > 0
-    for part, expected in zip(found, zip(*each, strict=True), strict=True):
-        single = np.stack([np.asarray(one) for one in expected])
+    actual_function = function(wide, _wide(np.stack(points)), proof)
+    functions = [function(*entry) for entry in zip(alone, points, proofs, strict=True)]
+    assert len(actual_function) == len(functions[0]) > 0
+    for part, expected in zip(actual_function, zip(*functions, strict=True), strict=True):
+        single = np.stack([np.asarray(value) for value in expected])
         assert np.shape(part) == (*LEADING, *single.shape[1:])
         size = np.max(np.abs(single[np.isfinite(single)]), initial=0.0)
         np.testing.assert_allclose(np.reshape(part, single.shape), single, rtol=1e-10, atol=1e-12 * size)
@@ -260,9 +262,9 @@ def test_a_function_of_every_array_reaches_all_of_them() -> None:
     problem = random_statement(1, "sum", (1.0, 2.0), True, True, True, webs=3)
     limits = replace(problem.limits, marginal_radius=problem.limits.radius)
     for part in (problem.norms, problem.ceilings, limits):
-        found = part.mapped(np.copy)
+        norms = part.mapped(np.copy)
         for field in fields(part):
-            own, other = getattr(part, field.name), getattr(found, field.name)
-            assert (other is not own) == isinstance(own, np.ndarray | Norms), field.name
+            own, value = getattr(part, field.name), getattr(norms, field.name)
+            assert (value is not own) == isinstance(own, np.ndarray | Norms), field.name
             if isinstance(own, np.ndarray):
-                assert np.array_equal(other, own)
+                assert np.array_equal(value, own)

@@ -24,8 +24,8 @@ def test_points_are_brought_within_every_limit(seed: int) -> None:
 def test_support_is_the_largest_projection_on_the_sector(half_angle: float) -> None:
     # independent: the sector's arc on a fine grid of angles
     edge = direction(half_angle)
-    one = np.ones(1)
-    limits = Limits(one, one, np.array([False]), direction(np.array([25.0])), one * edge.real, one * edge.imag,
+    ones = np.ones(1)
+    limits = Limits(ones, ones, np.array([False]), direction(np.array([25.0])), ones * edge.real, ones * edge.imag,
                     np.asarray(np.inf))  # fmt: skip
     arc = direction(25.0 + np.linspace(-half_angle, half_angle, 20001))
     for angle in np.linspace(0, 360, 73):
@@ -35,8 +35,8 @@ def test_support_is_the_largest_projection_on_the_sector(half_angle: float) -> N
 
 
 def test_support_without_a_sector_is_the_magnitude() -> None:
-    one = np.ones(1)
-    limits = Limits(one, one, np.array([True]), one + 0j, 0 * one, one, np.asarray(np.inf))
+    ones = np.ones(1)
+    limits = Limits(ones, ones, np.array([True]), ones + 0j, 0 * ones, ones, np.asarray(np.inf))
     assert limits.support(np.array([-3.0 - 4.0j]))[0] == 5.0  # analytic
 
 
@@ -47,8 +47,8 @@ def test_a_budget_is_spent_in_falling_order_of_gain(seed: int) -> None:
     webs, budget = int(rng.integers(1, 9)), float(rng.choice([0.3, 2.0, np.inf]))
     # of equal gains the first comes first
     gain, most = rng.integers(-1, 4, (3, webs)).astype(float), rng.random(webs)
-    one = np.ones(webs)
-    masses, price = Limits(one, most, one > 0, one + 0j, 0 * one, one, np.asarray(budget)).spent(gain)
+    ones = np.ones(webs)
+    masses, price = Limits(ones, most, ones > 0, ones + 0j, 0 * ones, ones, np.asarray(budget)).spent(gain)
     for n in range(3):
         left, ended = budget, 0.0
         for k in np.argsort(-gain[n], kind="stable"):
@@ -59,7 +59,9 @@ def test_a_budget_is_spent_in_falling_order_of_gain(seed: int) -> None:
 
 
 def test_without_a_budget_every_web_carries_what_it_may() -> None:
-    one = np.ones(2)
-    masses, price = Limits(one, np.array([2.0, np.inf]), one > 0, one + 0j, 0 * one, one, np.asarray(np.inf)).spent(one)
+    ones = np.ones(2)
+    masses, price = Limits(
+        ones, np.array([2.0, np.inf]), ones > 0, ones + 0j, 0 * ones, ones, np.asarray(np.inf)
+    ).spent(ones)
     assert masses.tolist() == [2.0, np.inf]  # analytic
     assert price == 0.0

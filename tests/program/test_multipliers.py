@@ -92,10 +92,14 @@ def test_a_touched_limit_leaves_the_multipliers_as_they_are() -> None:
 def test_a_web_at_the_edge_of_its_sector_touches_a_limit() -> None:
     program = _wide("plain")
     edge = np.exp(1j * np.deg2rad(30.0))
-    one = np.ones(WEBS)
+    ones = np.ones(WEBS)
     inside = np.abs(_INSIDE) * np.array([1.0, edge, np.conj(edge), np.exp(0.4j)])
     limits = replace(
-        program.limits, free=one < 0, centre=one + 0j, half_angle_cos=edge.real * one, half_angle_sin=edge.imag * one
+        program.limits,
+        free=ones < 0,
+        centre=ones + 0j,
+        half_angle_cos=edge.real * ones,
+        half_angle_sin=edge.imag * ones,
     )
     _, sharp = objective_multipliers(replace(program, limits=limits), inside, _multipliers(4, program))
     # of the last the direction is within: 22.9 of 30 degrees
@@ -120,10 +124,10 @@ def test_a_mass_is_proven_by_as_much_as_no_untouched_web_gains_from(kind: str) -
     gain = int(np.argmax(worth))
     full = np.where(np.arange(WEBS) == gain, np.abs(point) / program.limits.radius, program.limits.max_mass)
     touched = replace(program, limits=replace(program.limits, max_mass=np.maximum(full, 1e-9)))
-    for found in list(mass_multipliers(touched, point, solver))[1:]:
-        cost = np.broadcast_to(spread(touched, found), (WEBS,))
-        others = touched.limits.radius * (touched.limits.support(-_slope(touched, found)) - cost)
-        assert np.max(np.delete(others, gain)) == pytest.approx(1.0, rel=1e-12)
+    for mass_multiplier in list(mass_multipliers(touched, point, solver))[1:]:
+        cost = np.broadcast_to(spread(touched, mass_multiplier), (WEBS,))
+        radius = touched.limits.radius * (touched.limits.support(-_slope(touched, mass_multiplier)) - cost)
+        assert np.max(np.delete(radius, gain)) == pytest.approx(1.0, rel=1e-12)
 
 
 @pytest.mark.parametrize("kind", ["plain", "ceiling"])
@@ -131,16 +135,18 @@ def test_multipliers_hold_up_a_mass_where_every_web_is_worth_it(kind: str) -> No
     """Analytic: R conj(H) y = -u/|u|, by terms and ceilings together; two webs have two responses for that."""
     program = _wide(kind).only(np.array([True, False, False, True]))
     u = _INSIDE[[0, 3]]
-    found = list(supporting_multipliers(program, u))
-    assert len(found) == (2 if "ceiling" in kind else 1)
-    for proof in found:
+    multipliers = list(supporting_multipliers(program, u))
+    assert len(multipliers) == (2 if "ceiling" in kind else 1)
+    for proof in multipliers:
         np.testing.assert_allclose(_slope(program, proof) * program.limits.radius, -u / np.abs(u), atol=1e-10)
         assert np.all(proof.row[program.row] >= np.abs(proof.term))
         assert mass_lower_bound(program, proof, program.objective(u)) <= program.mass(u) * (1.0 + 1e-12)
     if "ceiling" in kind:
-        assert not np.any(found[1].term)
-        assert np.any(found[0].term)
+        assert not np.any(multipliers[1].term)
+        assert np.any(multipliers[0].term)
     # what carries nothing, or next to nothing, holds nothing up
     assert list(supporting_multipliers(program, np.zeros(2, complex))) == []
-    (one, *_) = supporting_multipliers(program, np.array([u[0], 1e-8 * u[1]]))
-    assert _slope(program, one)[0] * program.limits.radius[0] == pytest.approx(-u[0] / abs(u[0]), rel=1e-10)
+    (actual_multipliers, *_) = supporting_multipliers(program, np.array([u[0], 1e-8 * u[1]]))
+    assert _slope(program, actual_multipliers)[0] * program.limits.radius[0] == pytest.approx(
+        -u[0] / abs(u[0]), rel=1e-10
+    )

@@ -52,10 +52,10 @@ def reference(problem: Statement, *targets: float) -> list[float]:
     # a parameter, as to make a model takes longer than to solve it
     target = cp.Parameter()
     goal = cp.Problem(cp.Minimize(cp.sum(mass)), [*constraints, value <= target])
-    found = []
+    values = []
     for target.value in targets:
-        found.append(_value(goal))
-    return found
+        values.append(_value(goal))
+    return values
 
 
 def _value(goal: cp.Problem) -> float:
@@ -92,9 +92,9 @@ def test_the_least_mass_is_among_optima_whatever_gap_is_enough(gap: float, share
     """Property: it costs a millionth of the objective without counterweights, or the gap where that is smaller."""
     problem = random_statement(100, *COMBINATIONS[0])
     rest = float(problem.objective(np.zeros(problem.limits.radius.size, complex)))
-    sharp, found = solve(problem, least_mass=False), solve(problem, gap)
-    assert found.mass < sharp.mass
-    assert 0.1 * share * rest <= found.objective - sharp.objective <= 1.001 * share * rest
+    sharp, solution = solve(problem, least_mass=False), solve(problem, gap)
+    assert solution.mass < sharp.mass
+    assert 0.1 * share * rest <= solution.objective - sharp.objective <= 1.001 * share * rest
 
 
 @pytest.mark.parametrize("case", COMBINATIONS)
@@ -109,11 +109,11 @@ def test_answers_lie_within_the_limits(case: tuple) -> None:
     assert np.all(outside[~limits.free] <= 1e-15)
 
 
-def one_web(max_mass: float = 10.0, half_angle: float | None = None, budget: float = np.inf) -> Limits:
-    one = np.ones(1)
+def single_web(max_mass: float = 10.0, half_angle: float | None = None, budget: float = np.inf) -> Limits:
+    ones = np.ones(1)
     half = np.deg2rad(90.0 if half_angle is None else half_angle)
-    return Limits(one, one * max_mass, np.array([half_angle is None]), one + 0j, one * np.cos(half),
-                  one * np.sin(half), np.asarray(budget))  # fmt: skip
+    return Limits(ones, ones * max_mass, np.array([half_angle is None]), ones + 0j, ones * np.cos(half),
+                  ones * np.sin(half), np.asarray(budget))  # fmt: skip
 
 
 def force(co: complex, counter: complex = 0.0) -> Response:
@@ -130,28 +130,28 @@ def single(co: complex, limits: Limits, ceiling: float | None = None, counter: c
 
 
 def test_mass_limit_inactive_active_and_zero() -> None:
-    assert solve(single(-4, one_web(10.0))).unbalance[0] == pytest.approx(4.0, rel=2e-6)
-    active = solve(single(-4, one_web(3.0)))
+    assert solve(single(-4, single_web(10.0))).unbalance[0] == pytest.approx(4.0, rel=2e-6)
+    active = solve(single(-4, single_web(3.0)))
     assert active.unbalance[0] == pytest.approx(3.0, rel=1e-5)
     assert active.objective == pytest.approx(1.0, abs=4e-6)
-    nothing = solve(single(-4, one_web(0.0)))
+    nothing = solve(single(-4, single_web(0.0)))
     assert nothing.unbalance[0] == 0
     assert (nothing.objective, nothing.gap) == (4.0, pytest.approx(0.0, abs=1e-13))
 
 
 def test_budget_inactive_active_and_zero() -> None:
-    assert solve(single(-4, one_web(budget=5.0))).objective == pytest.approx(0.0, abs=5e-6)
-    assert solve(single(-4, one_web(budget=1.5))).objective == pytest.approx(2.5, abs=5e-6)
-    assert solve(single(-4, one_web(budget=0.0))).objective == 4.0
+    assert solve(single(-4, single_web(budget=5.0))).objective == pytest.approx(0.0, abs=5e-6)
+    assert solve(single(-4, single_web(budget=1.5))).objective == pytest.approx(2.5, abs=5e-6)
+    assert solve(single(-4, single_web(budget=0.0))).objective == 4.0
 
 
 @pytest.mark.parametrize("half_angle", [1e-6, 10.0, 60.0, 90.0])
 def test_sector_inactive_active_and_turned_away(half_angle: float) -> None:
     # inside the sector (centre 0): complete; across it: distance to the edge; against it: nothing helps
-    assert solve(single(-4, one_web(half_angle=half_angle))).objective == pytest.approx(0.0, abs=5e-6)
-    across = solve(single(-4j, one_web(half_angle=half_angle)))
+    assert solve(single(-4, single_web(half_angle=half_angle))).objective == pytest.approx(0.0, abs=5e-6)
+    across = solve(single(-4j, single_web(half_angle=half_angle)))
     assert across.objective == pytest.approx(4.0 * np.cos(np.deg2rad(half_angle)), abs=5e-6)
-    against = solve(single(4, one_web(half_angle=half_angle)))
+    against = solve(single(4, single_web(half_angle=half_angle)))
     assert against.objective == 4.0
     assert against.mass == 0.0
 
@@ -160,7 +160,7 @@ def test_ceiling_inactive_active_at_the_floor_and_below_it() -> None:
     # minimise |m| (a moment that wants u = 0) under a ceiling on the force |-4 + u| + 1
     def problem(ceiling: float, max_mass: float = 10.0) -> Statement:
         moment = Response("moment", "N m", Phasors(np.asarray(2.0 + 0j), np.asarray(0j)), np.ones(1))
-        limits = one_web(max_mass)
+        limits = single_web(max_mass)
         return statement(combined([weighted_peak(moment, 1.0)], "sum"), [(force(-4, 1), ceiling)], limits)
 
     assert solve(problem(9.0)).objective == pytest.approx(0.0, abs=5e-6)  # |-4 - 2| + 1 = 7 is below it
@@ -177,13 +177,13 @@ def test_ceiling_inactive_active_at_the_floor_and_below_it() -> None:
 
 
 def test_balanced_machines_take_no_iron() -> None:
-    answer = solve(single(0, one_web(), counter=3.0))
+    answer = solve(single(0, single_web(), counter=3.0))
     assert (answer.mass, answer.objective) == (0.0, 3.0)
     assert answer.gap <= 1e-13
 
 
 def test_no_webs_at_all() -> None:
-    problem = single(-4, one_web()).only(np.zeros(1, bool))
+    problem = single(-4, single_web()).only(np.zeros(1, bool))
     answer = solve(problem)
     assert answer.unbalance.size == 0
     assert answer.objective == 4.0
@@ -193,7 +193,7 @@ def test_no_webs_at_all() -> None:
 def test_webs_so_unlike_that_only_the_weak_one_can_cancel() -> None:
     """Analytic: the strong web may only point the other way, and the weak one cancels the term by itself."""
     limits = replace(
-        one_web(1e300),
+        single_web(1e300),
         radius=np.array([1e-6, 4.3107748390726144e-08]),
         max_mass=np.array([1e300, 1e300]),
         free=np.array([False, True]),
@@ -206,11 +206,11 @@ def test_webs_so_unlike_that_only_the_weak_one_can_cancel() -> None:
         "moment", "N m", Phasors(np.asarray(constant), np.asarray(1.1e-7 + 0j)), np.array([-0.5, -7.83e-11])
     )
     problem = within_reach(statement(combined([weighted_peak(moment, 1.0)], "sum"), [], limits))
-    found = solve(problem, 1e-7, least_mass=False)
-    assert found.objective == pytest.approx(1.1e-7, rel=1e-6)
-    assert found.gap <= 1e-7 * float(problem.at_rest)
-    assert found.unbalance[0] == 0.0
-    assert found.unbalance[1] == pytest.approx(constant / 7.83e-11, rel=1e-9)
+    solution = solve(problem, 1e-7, least_mass=False)
+    assert solution.objective == pytest.approx(1.1e-7, rel=1e-6)
+    assert solution.gap <= 1e-7 * float(problem.at_rest)
+    assert solution.unbalance[0] == 0.0
+    assert solution.unbalance[1] == pytest.approx(constant / 7.83e-11, rel=1e-9)
 
 
 @pytest.mark.parametrize("largest", [1e12, 1e6])
@@ -227,13 +227,13 @@ def test_limits_far_beyond_need_do_not_spoil_the_proof(largest: float) -> None:
 def test_units_by_powers_of_two_leave_the_answer_the_same_to_the_last_bit() -> None:
     for case in COMBINATIONS:
         problem = random_statement(42, *case)
-        bigger = _in_other_units(problem, 2.0**20, 2.0**-7)
+        bigger = _in_new_units(problem, 2.0**20, 2.0**-7)
         a, b = solve(problem), solve(bigger)
         assert np.array_equal(b.unbalance, a.unbalance * 2.0**20)
         assert b.objective == a.objective * 2.0**13
 
 
-def _in_other_units(problem: Statement, mass_radius: float, weight: float) -> Statement:
+def _in_new_units(problem: Statement, mass_radius: float, weight: float) -> Statement:
     """Masses in another unit of mass-radius, the objective in another unit as well."""
     factor = mass_radius * weight
     norms = replace(problem.norms, constant=problem.norms.constant * factor, influence=problem.norms.influence * weight)

@@ -126,10 +126,10 @@ def test_nodes_are_laid_closer_only_where_tangents_are_too_light(lighter: float,
     nodes, angle = NODES["first"], np.array([0.31, 0.47, 0.53])
     u = np.zeros(WEBS, complex)
     u[PLATES.webs] = PLATES.unbalance(angle)
-    found = nodes_about(PLATES, nodes, u, lighter)
-    assert (found is nodes) == same
+    actual_nodes_about = nodes_about(PLATES, nodes, u, lighter)
+    assert (actual_nodes_about is nodes) == same
     if not same:
-        webs = tangents(PLATES, found)
+        webs = tangents(PLATES, actual_nodes_about)
         for plate, (size, mass) in enumerate(zip(np.abs(u[PLATES.webs]), PLATES.mass(angle), strict=True)):
             assert _filled(webs, plate, float(size)) >= float(mass) * (1.0 - 1e-5)
             assert _filled(tangents(PLATES, nodes), plate, float(size)) < float(mass)

@@ -58,18 +58,18 @@ def test_points_above_a_ceiling_are_moved_to_it_and_no_farther() -> None:
     """Property: excesses are convex, so that those half way are below; what keeps its ceilings stays."""
     programs = [_program(seed, "ceiling") for seed in range(4)]
     for seed, program in enumerate(programs):
-        one = program.alone()
+        statement = program.alone()
         inside = np.zeros((1, WEBS), complex)
         for size in (0.1, 3.0, 10.0):
             u = size * random_point(np.random.default_rng(seed), program.limits)[None]
-            found = pulled(one, u, inside)
-            above, below = float(points_at(one, u).excess[0]), float(points_at(one, inside).excess[0])
+            points = pulled(statement, u, inside)
+            above, below = float(points_at(statement, u).excess[0]), float(points_at(statement, inside).excess[0])
             if above <= CEILING_ROUNDING:
-                assert np.array_equal(found, u)
+                assert np.array_equal(points, u)
             elif below < 0.0:
-                assert points_at(one, found).excess[0] <= 1e-9
+                assert points_at(statement, points).excess[0] <= 1e-9
                 share = above / (above - below)
-                np.testing.assert_allclose(found, u * (1.0 - share), rtol=1e-9)
+                np.testing.assert_allclose(points, u * (1.0 - share), rtol=1e-9)
 
 
 def test_the_better_of_two_proofs_goes_with_a_point() -> None:
@@ -101,8 +101,8 @@ def test_the_better_of_two_proofs_goes_with_a_point() -> None:
 )  # fmt: skip
 def test_ceilings_are_kept_to_their_tolerance_and_to_rounding(excess: float, keeps: bool, below: bool) -> None:
     nothing = nothing_proven(_program(1, "plain"))
-    found = ConeSolution(np.zeros(WEBS, complex), 1.0, 0.0, 1.0, 0.0, excess, nothing)
-    assert (found.keeps_ceilings, found.below_ceilings) == (keeps, below)
+    solution = ConeSolution(np.zeros(WEBS, complex), 1.0, 0.0, 1.0, 0.0, excess, nothing)
+    assert (solution.keeps_ceilings, solution.below_ceilings) == (keeps, below)
 
 
 def test_parts_are_put_in_the_order_of_all_programs() -> None:

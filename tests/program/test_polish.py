@@ -16,12 +16,12 @@ def test_what_is_good_enough_is_certified_and_what_is_not_is_not(seed: int, leas
     program = random_statement(seed, "sum", (1.0, 1.0), False, False, False, webs=4)
     share = 1e-6 * float(yardstick(program))
     target = Target(share, share, least_mass)
-    found = interior_point(program, target)
-    assert found.certified
-    again = polished(program, target, found._replace(certified=False), None)
+    pair = interior_point(program, target)
+    assert pair.certified
+    again = polished(program, target, pair._replace(certified=False), None)
     assert again.certified
-    assert again.smallest.gap <= found.smallest.gap
-    assert again.lightest.mass <= found.lightest.mass
+    assert again.smallest.gap <= pair.smallest.gap
+    assert again.lightest.mass <= pair.lightest.mass
     # at rest nothing is as small as can be
-    rest = found.smallest.with_point(program, np.zeros(4, complex))
+    rest = pair.smallest.with_point(program, np.zeros(4, complex))
     assert not polished(program, target, StagePair(rest, rest, False), None).certified

@@ -26,13 +26,13 @@ def problem(name: str, **goal: object) -> Problem:
 @pytest.mark.parametrize("combine", ["sum", "max"])
 @pytest.mark.parametrize("name", NAMES)
 def test_what_is_finite_is_its_own_outer_approximation(name: str, combine: str) -> None:
-    asked = problem(name, combine=combine, force_ceiling_N=1e5, moment_ceiling_x_Nm=1e5)
-    finite, outer = asked.finite, asked.outer(())
+    program = problem(name, combine=combine, force_ceiling_N=1e5, moment_ceiling_x_Nm=1e5)
+    finite, outer = program.finite, program.outer(())
     assert finite is not None
-    for one, other in ((finite.norms, outer.norms), (finite.ceilings.norms, outer.ceilings.norms)):
+    for norms, second in ((finite.norms, outer.norms), (finite.ceilings.norms, outer.ceilings.norms)):
         # analytic: one formulation, to the bit
-        np.testing.assert_array_equal(one.constant, other.constant)
-        np.testing.assert_array_equal(one.influence, other.influence)
+        np.testing.assert_array_equal(norms.constant, second.constant)
+        np.testing.assert_array_equal(norms.influence, second.influence)
     np.testing.assert_array_equal(finite.floor, outer.floor)
     np.testing.assert_array_equal(finite.ceilings.cap, outer.ceilings.cap)
     np.testing.assert_array_equal(finite.row, outer.row)

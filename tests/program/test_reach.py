@@ -50,8 +50,8 @@ def test_webs_that_are_told_by_what_they_change(webs: int, scale: float) -> None
     for _ in range(20):
         matrix = rng.normal(size=(3, webs)) * scale ** rng.uniform(0, 1, webs)
         masses: Complex = rng.normal(size=(2, webs)).T @ np.array([1, 1j])
-        told = masses_by_inverse(matrix, np.abs(matrix @ masses))
-        assert np.all(np.abs(masses) <= told)
+        inverse = masses_by_inverse(matrix, np.abs(matrix @ masses))
+        assert np.all(np.abs(masses) <= inverse)
     assert np.all(np.isinf(masses_by_inverse(rng.normal(size=(webs - 1, webs)), np.ones(webs - 1))))
 
 
@@ -87,11 +87,11 @@ def test_two_webs_carry_what_two_responses_may_change(seed: int) -> None:
     free = Limits(
         two.radius, two.max_mass, ~apart, two.centre, two.half_angle_cos, two.half_angle_sin, np.asarray(np.inf)
     )
-    told = carrying_mass(influence, free, most, apart)
+    bound = carrying_mass(influence, free, most, apart)
     inverse = np.abs(np.linalg.inv(influence))
-    assert told == pytest.approx(np.sum(inverse @ most), rel=1e-9)
+    assert bound == pytest.approx(np.sum(inverse @ most), rel=1e-9)
     changes = most[:, None] * np.exp(1j * rng.uniform(0.0, 2 * np.pi, (2, 200)))
-    assert np.all(np.sum(np.abs(np.linalg.solve(influence, changes)), axis=0) <= told * (1 + 1e-12))
+    assert np.all(np.sum(np.abs(np.linalg.solve(influence, changes)), axis=0) <= bound * (1 + 1e-12))
     # one response of two webs: the one that does most
     assert carrying_mass(influence[:1], free, most[:1], apart[:1]) == pytest.approx(
         most[0] / np.max(np.abs(influence[0]))
@@ -106,8 +106,8 @@ def test_what_is_blended_stays_in_its_sector() -> None:
     safe = evaluated(program, within.into(np.array([-1.0 + 5.4j])))
     far = within.into(1e14 * np.array([-1.0 - 5.0j]))
     for target in (12.0, 15.0, 40.0):
-        found = _blended(program, far, safe, target)
-        assert np.all(np.abs(within.into(found) - found) <= 4e-16 * np.abs(found))
+        values = _blended(program, far, safe, target)
+        assert np.all(np.abs(within.into(values) - values) <= 4e-16 * np.abs(values))
 
 
 @pytest.mark.parametrize("turn", [0.0, 100.0, 180.0, 260.0])
@@ -117,10 +117,10 @@ def test_the_reach_of_webs_in_sectors_does_not_depend_on_where_these_point(turn:
     influence, most, apart = np.array([[0.5, -1.5]]), np.array([3.0]), np.zeros(1, bool)
     straight = limits(2, half_angle)
     turned = replace(straight, centre=direction(turn) * straight.centre)
-    told = carrying_mass(influence, turned, most, apart)
-    assert told == pytest.approx(carrying_mass(influence, straight, most, apart), rel=1e-6)
+    bound = carrying_mass(influence, turned, most, apart)
+    assert bound == pytest.approx(carrying_mass(influence, straight, most, apart), rel=1e-6)
     # the lighter web reaches what is to be carried, or the heavier one does
-    assert 3.0 / 1.5 * (1 - 1e-9) <= told < np.inf
+    assert 3.0 / 1.5 * (1 - 1e-9) <= bound < np.inf
 
 
 @pytest.mark.parametrize("ceiling", [12.0, 15.0])
@@ -171,8 +171,8 @@ def test_scalars_in_other_directions_are_other_responses() -> None:
     _, _, scalar = responses(program, np.ones(2, bool), level)
     assert scalar.tolist() == [True, False]
     turned = replace(program, norms=replace(program.norms, influence=1j * program.norms.influence))
-    found, _, _ = responses(turned, np.ones(2, bool), level)
-    np.testing.assert_allclose(found, [[1j, 1j], [1.0, 0.0]])
+    values, _, _ = responses(turned, np.ones(2, bool), level)
+    np.testing.assert_allclose(values, [[1j, 1j], [1.0, 0.0]])
     # a response of the same direction and size is one, and bound by the closer
     twice = replace(
         program,
@@ -189,8 +189,8 @@ def test_no_web_is_far_that_is_limited_to_what_is_called_for() -> None:
     cancels = natural_reach(program) / 0.25
     for share, far in ((0.5, False), (999.0, False), (1001.0, True), (np.inf, True)):
         some = np.array([share * float(cancels), 1.0])
-        found = far_limits(replace(program, limits=replace(program.limits, max_mass=some)))
-        assert found.tolist() == [far, False]
+        bounds = far_limits(replace(program, limits=replace(program.limits, max_mass=some)))
+        assert bounds.tolist() == [far, False]
     # a budget is a limit as well
     budget = replace(program.limits, max_total_mass=np.asarray(5.0 * float(cancels)), max_mass=np.full(2, 1e12))
     assert not np.any(far_limits(replace(program, limits=budget)))
@@ -199,19 +199,19 @@ def test_no_web_is_far_that_is_limited_to_what_is_called_for() -> None:
 def test_scattering_webs_reach_as_far_as_what_scatters_is_allowed() -> None:
     """Analytic: a kilogram scatters by 0.1 R |H|: of the second web only the first row, (20 - 1)/(0.1 * 0.25)."""
     program, level = _two_terms(scatter=0.1)
-    found = bounded(program, level).limits.max_mass
+    max_mass = bounded(program, level).limits.max_mass
     first = min(19.0 / 0.025, 18.0 / (0.1 * 3.0 * 0.25))
-    assert found == pytest.approx([max(first, 19.0 / 0.025)] * 2, rel=1e-8)
+    assert max_mass == pytest.approx([max(first, 19.0 / 0.025)] * 2, rel=1e-8)
 
 
 def test_a_web_alone_is_bound_by_what_its_responses_leave() -> None:
     """Analytic: two webs and two responses, by Cramer's rule: u1 = -b, u2 = a + b, of |a| <= 29 and |b| <= 8."""
     program, level = _two_terms()
-    found = bounded(program, level).limits.max_mass
+    max_mass = bounded(program, level).limits.max_mass
     most = max(8.0, 29.0 + 8.0) / 0.25
-    assert np.all(found >= [8.0 / 0.25, 37.0 / 0.25])
-    assert np.max(found) <= (8.0 + 37.0) / 0.25 * (1.0 + 1e-8)
-    assert np.max(found) >= most
+    assert np.all(max_mass >= [8.0 / 0.25, 37.0 / 0.25])
+    assert np.max(max_mass) <= (8.0 + 37.0) / 0.25 * (1.0 + 1e-8)
+    assert np.max(max_mass) >= most
     # what is limited far more closely stays as it is, and the other one with it
     near = replace(program, limits=replace(program.limits, max_mass=np.array([4.0, np.inf])))
     assert bounded(near, level).limits.max_mass[0] == 4.0
@@ -247,15 +247,15 @@ def test_what_sectors_carry_they_carry_with_the_mass_that_is_told(seed: int) -> 
     rays = np.concatenate([sectors.centre * turn for turn in (1.0, edge, np.conj(edge))])
     brought = np.tile(influence, 3) * rays
     rows = np.concatenate([brought.real, brought.imag])
-    told = carrying_mass(influence, sectors, np.ones(2), apart)
-    assert np.isfinite(told)
+    bound = carrying_mass(influence, sectors, np.ones(2), apart)
+    assert np.isfinite(bound)
     for _ in range(30):
         masses = rng.exponential(size=9) * rng.integers(0, 2, 9)
         change = brought @ masses
         size = np.max(np.abs(change))
         if size > 0.0:
             least = linprog(np.ones(9), A_eq=rows, b_eq=np.concatenate([change.real, change.imag]) / size).fun
-            assert least <= told * (1.0 + 1e-9)
+            assert least <= bound * (1.0 + 1e-9)
 
 
 def test_a_limited_response_is_no_larger_than_its_ceiling_and_its_tolerance() -> None:
@@ -290,8 +290,8 @@ def test_sets_of_webs_hold_one_that_changes_all_that_others_do(
 ) -> None:
     ones = np.ones(len(rows[0]))
     limits = Limits(0.5 * ones, ones, np.full(ones.size, free), ones + 0j, 0.0 * ones, ones, np.asarray(np.inf))
-    found = [frozenset(each) for each in _subsets(np.array(rows), limits, np.array(scalar))]
-    assert sorted(map(sorted, found)) == sorted([int(web) for web in one] for one in sets.split())
+    frozensets = [frozenset(subset) for subset in _subsets(np.array(rows), limits, np.array(scalar))]
+    assert sorted(map(sorted, frozensets)) == sorted([int(web) for web in part] for part in sets.split())
 
 
 def test_a_real_constant_is_cancelled_by_the_same_machine_code() -> None:
@@ -307,8 +307,8 @@ def test_real_influences_are_complex_ones_to_the_last_digit(terms: int, webs: in
     source = np.random.default_rng(seed)
     influence = np.rint(3.0 * source.normal(size=(20, terms, webs)))
     constant = source.normal(size=(20, terms)) + 1j * source.normal(size=(20, terms))
-    found = least_change(influence, constant, passes)
-    np.testing.assert_array_equal(found, least_change(influence.astype(complex), constant, passes))
+    change = least_change(influence, constant, passes)
+    np.testing.assert_array_equal(change, least_change(influence.astype(complex), constant, passes))
 
 
 @given(seed=st.integers(0, 10_000))

@@ -24,27 +24,29 @@ from tests.program.turning import bearings, wide
 
 def responses(rng: np.random.Generator, webs: int, scenario: str | None) -> list[Response]:
     """A force and a moment."""
-    found = []
+    quantities = []
     for name, influence in (("force", np.ones(webs)), ("moment", rng.uniform(-1, 1, webs))):
         co, counter = rng.normal(size=(2, 2)) @ [1, 1j]
         pair = Phasors(np.asarray(co), np.asarray(counter))
-        found.append(Response(name, "N", pair, influence, scenario=scenario))
-    return found
+        quantities.append(Response(name, "N", pair, influence, scenario=scenario))
+    return quantities
 
 
 def several(seed: int, cases: int = 3, webs: int = 4, limits: Limits | None = None) -> Problem:
     """The largest, over some cases, of the peak force plus the peak moment, each a group by itself."""
     rng = np.random.default_rng(seed)
     every = [responses(rng, webs, str(case)) for case in range(cases)]
-    groups = tuple(Group(rows=(Row(one.name, (weighted_peak(one, 1.0),)),)) for case in every for one in case)
+    groups = tuple(
+        Group(rows=(Row(response.name, (weighted_peak(response, 1.0),)),)) for case in every for response in case
+    )
     goal = Goal("all", groups, cases=tuple(n for n, case in enumerate(every) for _ in case))
     return Problem((), (goal,), (), (), random_limits(rng, webs, bool(seed % 2), False) if limits is None else limits)
 
 
 def best(program: Problem, least_mass: bool = False, gap: float = 1e-6) -> CertifiedOptimum:
-    found = over_turn(program, gap, least_mass)
-    assert isinstance(found, CertifiedOptimum)
-    return found
+    optimum = over_turn(program, gap, least_mass)
+    assert isinstance(optimum, CertifiedOptimum)
+    return optimum
 
 
 def modelled(program: Problem) -> float:
@@ -67,7 +69,7 @@ def modelled(program: Problem) -> float:
     across = cp.multiply(limits.half_angle_cos, cp.abs(cp.imag(turned)))
     within = across - cp.multiply(limits.half_angle_sin, cp.real(turned)) <= np.where(limits.free, 1e3, 0.0)
     rules = [cp.abs(u) / limits.radius <= limits.max_mass, within]
-    goal = cp.max(cp.hstack([cp.sum(cp.hstack(each)) for each in sums.values()]))
+    goal = cp.max(cp.hstack([cp.sum(cp.hstack(single_sum)) for single_sum in sums.values()]))
     return float(cp.Problem(cp.Minimize(goal), rules).solve(solver=cp.CLARABEL))
 
 
@@ -75,9 +77,9 @@ def modelled(program: Problem) -> float:
 @pytest.mark.parametrize("seed", range(4))
 def test_the_largest_of_sums_is_what_the_modelling_layer_finds(seed: int, share: float) -> None:
     program = replace(several(seed), scatter=Scatter(share, 0.02 if share else 0.0))
-    found, rest = best(program), float(program.yardsticks[0])
-    assert found.proof.bound == pytest.approx(modelled(program), abs=1e-6 * rest)
-    assert found.goals[-1].value - found.proof.bound <= 1e-6 * rest
+    optimum, rest = best(program), float(program.yardsticks[0])
+    assert optimum.proof.bound == pytest.approx(modelled(program), abs=1e-6 * rest)
+    assert optimum.goals[-1].value - optimum.proof.bound <= 1e-6 * rest
 
 
 @settings(max_examples=15)
@@ -87,13 +89,13 @@ def test_no_point_is_below_the_bound_whatever_errors_it_suffers(seed: int, share
     rng = np.random.default_rng(seed)
     program = bearings(seed, count=3, webs=3, measure="rms" if seed % 3 == 0 else "peak") if turn else several(seed)
     program = replace(program, scatter=Scatter(share, 0.01))
-    found = best(program, least_mass=True, gap=1e-4)
+    optimum = best(program, least_mass=True, gap=1e-4)
     exact = replace(program, scatter=Scatter())
-    assert found.proof.bound <= found.point.values.goals[-1] * (1 + 1e-12)
+    assert optimum.proof.bound <= optimum.point.values.goals[-1] * (1 + 1e-12)
     for _ in range(4):
         u = random_point(rng, program.limits)
         worst = float(program.values(u, 1e-9).goals[0])
-        assert found.proof.bound <= worst * (1 + 1e-12)
+        assert optimum.proof.bound <= worst * (1 + 1e-12)
         off = _errors(rng, u, program.scatter)
         assert float(exact.values(u + off, 1e-9).goals[0]) <= worst * (1 + 1e-9)
 
@@ -111,9 +113,9 @@ def test_one_norm_comes_to_what_is_said_at_worst() -> None:
         (), (Goal("all", (Group(rows=(Row("force", (weighted_peak(response, 1.0),)),)),)),), (), (), wide(1)
     )
     for share, at, value in ((0.0, -1.0, 0.0), (0.1, -1.0, 0.1), (0.99, -1.0, 0.99), (1.5, 0.0, 1.0)):
-        found = best(replace(program, scatter=Scatter(share)))
-        assert found.goals[-1].value == pytest.approx(value, abs=1e-6)
-        assert found.point.unbalance[0] == pytest.approx(at, abs=2e-6)
+        optimum = best(replace(program, scatter=Scatter(share)))
+        assert optimum.goals[-1].value == pytest.approx(value, abs=1e-6)
+        assert optimum.point.unbalance[0] == pytest.approx(at, abs=2e-6)
 
 
 @pytest.mark.parametrize("share", [1e-9, 0.035])
@@ -133,14 +135,14 @@ def test_ceilings_hold_in_the_worst_case() -> None:
     """Analytic: |1 + u| + |u|/10 <= 0.3 is kept from u = -7/9 on; at most 0.09 cannot be."""
     response = Response("force", "N", Phasors(np.asarray(1.0 + 0j), np.asarray(0j)), np.ones(1), scenario="hot")
     goal = Goal("all", (Group(rows=(Row("force", (weighted_peak(response, 1.0),)),)),))
-    kept = Problem((), (goal,), ((response, 0.3),), (), wide(1), Scatter(0.1))
+    problem = Problem((), (goal,), ((response, 0.3),), (), wide(1), Scatter(0.1))
     free = replace(response, baseline=Phasors(np.asarray(0j), np.asarray(2.0 + 0j)))
     still = Goal("all", (Group(rows=(Row("force", (weighted_peak(replace(free, influence=np.zeros(1)), 1.0),)),)),))
-    found = best(replace(kept, goals=(still,)), least_mass=True)
-    assert found.point.unbalance[0] == pytest.approx(-7 / 9, abs=1e-6)
-    assert found.mass_proof is not None
-    assert found.mass_proof.bound == pytest.approx(7 / 9 / 0.2, rel=1e-5)
-    unkept = over_turn(replace(kept, ceilings=((response, 0.09),)), 1e-6, True)
+    optimum = best(replace(problem, goals=(still,)), least_mass=True)
+    assert optimum.point.unbalance[0] == pytest.approx(-7 / 9, abs=1e-6)
+    assert optimum.mass_proof is not None
+    assert optimum.mass_proof.bound == pytest.approx(7 / 9 / 0.2, rel=1e-5)
+    unkept = over_turn(replace(problem, ceilings=((response, 0.09),)), 1e-6, True)
     assert isinstance(unkept, Conflict)
     assert unkept.proof.statement.names.terms[0].scenario == "hot"
 
@@ -152,7 +154,7 @@ def test_the_worst_of_all_counterweights_off_together(webs: int) -> None:
     norms = Norms(rng.normal(size=(3, 2)) @ [1, 1j], rng.normal(size=(3, webs)))
     u = rng.normal(size=(webs, 2)) @ [1, 1j]
     signs = np.array(np.meshgrid(*[[-1.0, 1.0]] * webs)).reshape(webs, -1).T if webs else np.zeros((1, 0))
-    worst = np.max([np.abs(norms.at(u * (1 + 0.3 * each))) for each in signs], axis=0)
+    worst = np.max([np.abs(norms.at(u * (1 + 0.3 * sign))) for sign in signs], axis=0)
     assert worst_by_mass(norms, u, 0.3) == pytest.approx(worst, rel=1e-12)
     corners = mass_corners(norms.influence * u)
     assert np.max(np.abs(norms.at(u)[:, None] + 0.3 * corners), axis=-1) == pytest.approx(worst, rel=1e-12)
@@ -172,7 +174,7 @@ def test_the_worst_of_all_counterweights_off_together(webs: int) -> None:
 def test_counterweights_along_the_axis_are_turned_like_all_others(towards: tuple[float, float]) -> None:
     """Analytic: what two opposite vectors and a third that cancels them come to, whichever way their angles round."""
     vectors = np.array([3.0, 1.0]) * np.exp(1j * np.array(towards))
-    vectors.imag = [np.copysign(0.0, np.sin(one)) for one in towards]
+    vectors.imag = [np.copysign(0.0, np.sin(value)) for value in towards]
     norms = Norms(np.array([-np.sum(vectors)]), np.ones((1, 2)))
     # both are turned across the axis, either way
     assert worst_by_angle(norms, vectors, 0.01) == pytest.approx(4.0 * 2 * np.sin(0.005), rel=1e-3)
@@ -186,7 +188,9 @@ def test_loads_over_the_turn_are_no_worse_than_is_said(seed: int, turning: bool)
     program = bearings(seed, count=3, webs=3)
     if turning:
         turned = np.array([0.0, -2.0, 1.0])
-        moved = (replace(each, response=replace(each.response, turning=turned)) for each in program.quantities)
+        moved = (
+            replace(quantity, response=replace(quantity.response, turning=turned)) for quantity in program.quantities
+        )
         program = replace(program, quantities=tuple(moved))
     u = random_point(rng, program.limits)
     angle, share = 0.1, 0.05

@@ -38,33 +38,35 @@ def _points(count: int) -> np.ndarray:
 def test_rows_are_sums_of_the_largest_of_groups(case_of: tuple[int, ...], most: int) -> None:
     """Independent: sums of the groups of each case; at the points the largest, elsewhere no more, of all rows equal."""
     statement, cases, points = _statement(), np.array(case_of), _points(4)
-    found = single_group(statement, cases, points, most, np.zeros(cases[-1] + 1, int))
+    selection = single_group(statement, cases, points, most, np.zeros(cases[-1] + 1, int))
     every = [np.prod([size for size, case in zip(GROUPS, case_of, strict=True) if case == n]) for n in set(case_of)]
-    assert found.floor.size == min(most, int(np.sum(every)))
-    assert not np.any(found.group)
+    assert selection.floor.size == min(most, int(np.sum(every)))
+    assert not np.any(selection.group)
 
     def largest(u: np.ndarray) -> np.ndarray:
         of_groups = statement.largest(statement.rows(statement.norms.sizes(u)))
         return np.max([np.sum(of_groups[:, cases == n], axis=-1) for n in set(case_of)], axis=0)
 
-    np.testing.assert_allclose(found.objective(points), largest(points), rtol=1e-12)
+    np.testing.assert_allclose(selection.objective(points), largest(points), rtol=1e-12)
     elsewhere = 2.0 * _points(50)
-    assert np.all(found.objective(elsewhere) <= largest(elsewhere) * (1.0 + 1e-12))
+    assert np.all(selection.objective(elsewhere) <= largest(elsewhere) * (1.0 + 1e-12))
     if most == 500:
-        np.testing.assert_allclose(found.objective(elsewhere), largest(elsewhere), rtol=1e-12)
+        np.testing.assert_allclose(selection.objective(elsewhere), largest(elsewhere), rtol=1e-12)
     # a row is called by those that it is the sum of, and has their terms
-    for n, name in enumerate(found.names.rows):
-        parts = [int(each[1:]) for each in name.split(" + ")]
-        assert [found.names.terms[j].response for j in np.flatnonzero(found.row == n)] == [f"t{r}" for r in parts]
-        assert found.floor[n] == pytest.approx(np.sum(statement.floor[parts]))
+    for n, name in enumerate(selection.names.rows):
+        parts = [int(part[1:]) for part in name.split(" + ")]
+        assert [selection.names.terms[j].response for j in np.flatnonzero(selection.row == n)] == [
+            f"t{r}" for r in parts
+        ]
+        assert selection.floor[n] == pytest.approx(np.sum(statement.floor[parts]))
 
 
 def test_every_kind_of_sum_keeps_its_own_largest() -> None:
     statement, cases, points = _statement(), np.array([0, 0, 1, 1]), _points(3)
-    found = single_group(statement, cases, points, 8, np.array([0, 1]))
+    selection = single_group(statement, cases, points, 8, np.array([0, 1]))
     of_groups = statement.largest(statement.rows(statement.norms.sizes(points)))
-    sizes = found.rows(found.norms.sizes(points))
-    first = np.array(["r0" in name.split(" + ") or "r1" in name.split(" + ") for name in found.names.rows])
+    sizes = selection.rows(selection.norms.sizes(points))
+    first = np.array(["r0" in name.split(" + ") or "r1" in name.split(" + ") for name in selection.names.rows])
     assert np.sum(first) == np.sum(~first) == 4
     for kind, own in ((first, of_groups[:, :2]), (~first, of_groups[:, 2:])):
         np.testing.assert_allclose(np.max(sizes[:, kind], axis=-1), np.sum(own, axis=-1), rtol=1e-12)
@@ -73,14 +75,14 @@ def test_every_kind_of_sum_keeps_its_own_largest() -> None:
 def test_the_nearest_ceilings_are_kept() -> None:
     """Property: the largest excess of every point is among them, with its name, its angle and its scenario."""
     statement, points = _statement(12), _points(3)
-    found = single_group(statement, np.zeros(4, int), points, 5, np.zeros(1, int)).ceilings
-    assert len(found.names) == 5
+    ceilings = single_group(statement, np.zeros(4, int), points, 5, np.zeros(1, int)).ceilings
+    assert len(ceilings.names) == 5
     excess = statement.ceilings.excess(points)
-    np.testing.assert_allclose(np.max(found.excess(points), axis=-1), np.max(excess, axis=-1), rtol=1e-12)
-    places = [int(name[1:]) for name in found.names]
+    np.testing.assert_allclose(np.max(ceilings.excess(points), axis=-1), np.max(excess, axis=-1), rtol=1e-12)
+    places = [int(name[1:]) for name in ceilings.names]
     assert places == sorted(places)
-    assert found.angles_deg == tuple(10.0 * n for n in places)
-    assert found.scenarios == found.names
+    assert ceilings.angles_deg == tuple(10.0 * n for n in places)
+    assert ceilings.scenarios == ceilings.names
     slack = np.min(np.maximum(np.max(excess, axis=-1, keepdims=True), 0.0) - excess, axis=0)
     assert set(places) == set(np.argsort(slack, kind="stable")[:5].tolist())
     whole = single_group(statement, np.zeros(4, int), points, 12, np.zeros(1, int)).ceilings

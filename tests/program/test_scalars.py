@@ -56,17 +56,17 @@ def sampled(of: Quantity, u: Complex) -> float:
 @pytest.mark.parametrize("seed", range(3))
 def test_the_optimum_of_a_scalar_is_that_of_a_linear_program(seed: int) -> None:
     """Independent: |Re d + Re(h u)| <= t at 360 angles and no limits that bind, by scipy's simplex."""
-    asked = program(seed, beside=False, binding=False)
-    best = over_turn(asked, 1e-6, False)
+    problem = program(seed, beside=False, binding=False)
+    best = over_turn(problem, 1e-6, False)
     assert isinstance(best, CertifiedOptimum)
-    response = asked.quantities[0].response
+    response = problem.quantities[0].response
     turned = np.exp(1j * ANGLES[:, None] * response.turning) * response.influence
     rows, constant = np.hstack([turned.real, -turned.imag]), response.at(ANGLES).real
     above = np.vstack([np.hstack([sign * rows, -np.ones((ANGLES.size, 1))]) for sign in (1.0, -1.0)])
     cost = np.append(np.zeros(12), 1.0)
     free = [(None, None)] * 12 + [(0.0, None)]
     expected = linprog(cost, A_ub=above, b_ub=np.concatenate([-constant, constant]), bounds=free).fun
-    rest = float(asked.yardsticks[0])
+    rest = float(problem.yardsticks[0])
     assert best.goals[-1].value - best.goals[-1].lower_bound <= 1e-6 * rest
     # angles between cost at most (h/2)^2/2 of the curvature of order 4
     assert expected - 1e-6 * rest <= best.goals[-1].value <= expected + 7e-4 * rest
@@ -75,17 +75,17 @@ def test_the_optimum_of_a_scalar_is_that_of_a_linear_program(seed: int) -> None:
 @settings(max_examples=5, deadline=None)
 @given(seed=st.integers(0, 10**6), least_mass=st.booleans())
 def test_bounds_are_never_above_what_another_point_comes_to(seed: int, least_mass: bool) -> None:
-    asked = program(seed)
-    best = over_turn(asked, 1e-5, least_mass)
+    problem = program(seed)
+    best = over_turn(problem, 1e-5, least_mass)
     assert isinstance(best, CertifiedOptimum)
     rng = np.random.default_rng(seed + 1)
-    rest = float(asked.yardsticks[0])
+    rest = float(problem.yardsticks[0])
     for scale in (0.0, 1e-3, 0.1, 1.0):
-        other = random_point(rng, asked.limits)
-        u = asked.limits.into(best.point.unbalance + scale * (other - best.point.unbalance))
-        value = sum((1.0 + q) * sampled(each, u) for q, each in enumerate(asked.quantities))
+        point = random_point(rng, problem.limits)
+        u = problem.limits.into(best.point.unbalance + scale * (point - best.point.unbalance))
+        value = sum((1.0 + q) * sampled(problem_quantity, u) for q, problem_quantity in enumerate(problem.quantities))
         assert best.goals[-1].lower_bound <= value + 4e-3 * rest
-        brackets = asked.values(u, 1e-9)
+        brackets = problem.values(u, 1e-9)
         assert best.goals[-1].lower_bound <= float(brackets.goals[0]) * (1.0 + 1e-12)
         assert value <= float(brackets.goals[0]) * (1.0 + 1e-9)
         assert float(brackets.goals[0]) <= value + 8e-3 * rest
@@ -96,28 +96,30 @@ def test_a_ceiling_on_a_scalar_is_kept_and_proven(seed: int) -> None:
     """A little above the smallest peak it is kept, and costs no less than the bound; below it, it is out of reach."""
     free = over_turn(program(seed, beside=False), 1e-7, False)
     assert isinstance(free, CertifiedOptimum)
-    least, asked = free.goals[-1], program(seed)
-    other = (Goal("force", (Group(weighed=(Weighed(1, 1.0),)),)),)
-    kept = over_turn(replace(asked, goals=other, limited=((0, 1.2 * least.value),)), 1e-6, True)
-    assert isinstance(kept, CertifiedOptimum)
-    assert sampled(asked.quantities[0], kept.point.unbalance) <= 1.2 * least.value * (1.0 + 1e-9)
-    assert kept.goals[-1].value - kept.goals[-1].lower_bound <= 1e-6 * float(asked.alone(0).yardsticks[0])
-    below = over_turn(replace(asked, goals=other, limited=((0, 0.999 * least.lower_bound),)), 1e-6, True)
+    least, problem = free.goals[-1], program(seed)
+    entry = (Goal("force", (Group(weighed=(Weighed(1, 1.0),)),)),)
+    optimum = over_turn(replace(problem, goals=entry, limited=((0, 1.2 * least.value),)), 1e-6, True)
+    assert isinstance(optimum, CertifiedOptimum)
+    assert sampled(problem.quantities[0], optimum.point.unbalance) <= 1.2 * least.value * (1.0 + 1e-9)
+    assert optimum.goals[-1].value - optimum.goals[-1].lower_bound <= 1e-6 * float(problem.alone(0).yardsticks[0])
+    below = over_turn(replace(problem, goals=entry, limited=((0, 0.999 * least.lower_bound),)), 1e-6, True)
     assert isinstance(below, Conflict)
 
 
 def test_multipliers_that_are_not_real_prove_no_more() -> None:
     """Whatever is given as multipliers: of a scalar the real part counts."""
     rng = np.random.default_rng(4)
-    asked = program(5, beside=False)
-    posed = asked.outer(asked.first)
-    best = over_turn(asked, 1e-6, False)
+    problem = program(5, beside=False)
+    posed = problem.outer(problem.first)
+    best = over_turn(problem, 1e-6, False)
     assert isinstance(best, CertifiedOptimum)
     for _ in range(20):
-        given = replace(best.proof.multipliers, term=best.proof.multipliers.row * np.exp(2j * np.pi * rng.uniform()))
-        if given.term.size == posed.row.size:
-            assert objective_lower_bound(posed, given) <= best.goals[-1].value
-        assert objective_lower_bound(best.proof.statement, given) <= best.goals[-1].value
+        multipliers = replace(
+            best.proof.multipliers, term=best.proof.multipliers.row * np.exp(2j * np.pi * rng.uniform())
+        )
+        if multipliers.term.size == posed.row.size:
+            assert objective_lower_bound(posed, multipliers) <= best.goals[-1].value
+        assert objective_lower_bound(best.proof.statement, multipliers) <= best.goals[-1].value
 
 
 @pytest.mark.parametrize("scalar", [False, True])
@@ -144,9 +146,9 @@ def test_webs_without_a_limit_reach_all_that_is_no_worse(seed: int) -> None:
     of = every[seed % 2]
     webs = of.response.influence.size
     limits = replace(wide(webs), max_mass=np.full(webs, np.inf))
-    asked = Problem((of,), (Goal("all", (Group(weighed=(Weighed(0, 1.0),)),)),), (), (), limits)
-    rest = float(asked.yardsticks[0])
-    reach = bounded(asked.outer(asked.telling), 2.0 * rest).limits.max_mass
+    problem = Problem((of,), (Goal("all", (Group(weighed=(Weighed(0, 1.0),)),)),), (), (), limits)
+    rest = float(problem.yardsticks[0])
+    reach = bounded(problem.outer(problem.telling), 2.0 * rest).limits.max_mass
     assert np.all(np.isfinite(reach))
     for _ in range(8):
         u = rng.normal(size=(webs, 2)) @ [1, 1j]

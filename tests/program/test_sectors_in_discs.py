@@ -45,26 +45,29 @@ def test_both_methods_and_clarabel_find_the_same_optimum(seed: int, case: tuple)
     problem = random_statement(seed, *case).alone()
     assert suits_discs(problem).all()
     part, unit = share(problem), float(yardstick(problem)[0])
-    quick, other = in_discs(problem), compiled._general(problem, part, part, True, np.zeros(1))
+    quick, general = in_discs(problem), compiled._general(problem, part, part, True, np.zeros(1))
     reference = smallest_objective(problem.subset(0), 1e-10 * unit)
     room = (1e-12 + 2e-8 * bool(problem.ceilings.names)) * unit
     assert quick.lower_bound[0] <= reference.objective + room
     if quick.certified[0]:
         assert reference.lower_bound <= quick.objective[0] + room
-        if other.certified[0]:
-            assert max(quick.lower_bound[0], other.lower_bound[0]) <= min(quick.objective[0], other.objective[0]) + room
-            assert max(quick.mass_lower_bound[0], other.mass_lower_bound[0]) <= min(quick.mass[0], other.mass[0]) * (
-                1 + 1e-5
-            ) + 1e-9 * float(problem.limits.most.sum())
+        if general.certified[0]:
+            assert (
+                max(quick.lower_bound[0], general.lower_bound[0])
+                <= min(quick.objective[0], general.objective[0]) + room
+            )
+            assert max(quick.mass_lower_bound[0], general.mass_lower_bound[0]) <= min(
+                quick.mass[0], general.mass[0]
+            ) * (1 + 1e-5) + 1e-9 * float(problem.limits.most.sum())
     u = quick.unbalance[0]
     np.testing.assert_allclose(problem.subset(0).limits.into(u), u, rtol=1e-12, atol=1e-15)
 
 
 def test_most_random_programs_need_no_other_method() -> None:
     """Regression: fewest where webs stand at the edges of narrow sectors under a budget, two thirds."""
-    found = {case: float(np.mean(in_discs(_batch(case)).certified)) for case in SUMS}
-    assert min(found.values()) >= 0.4
-    assert np.mean(list(found.values())) >= 0.75
+    means = {case: float(np.mean(in_discs(_batch(case)).certified)) for case in SUMS}
+    assert min(means.values()) >= 0.4
+    assert np.mean(list(means.values())) >= 0.75
 
 
 def _batch(case: tuple) -> Statement:
@@ -76,8 +79,8 @@ def test_no_answer_is_worse_for_the_method_for_discs(case: tuple) -> None:
     """Metamorphic: what the method for any limits certifies by itself is certified."""
     batch = _batch(case)
     part = share(batch)
-    found, other = stage_solutions(batch, part, part, True), compiled._general(batch, part, part, True, 0.0 * part)
-    assert not np.any(other.certified & ~found.certified)
+    stages, general = stage_solutions(batch, part, part, True), compiled._general(batch, part, part, True, 0.0 * part)
+    assert not np.any(general.certified & ~stages.certified)
 
 
 # ---- programs that can be solved by hand
@@ -86,17 +89,17 @@ def test_no_answer_is_worse_for_the_method_for_discs(case: tuple) -> None:
 def single(half_angle_deg: float, centre_deg: float, largest: float, budget: float = np.inf) -> Statement:
     """20 kg m along x; one web of 1 m radius in its plane."""
     half, towards = np.radians(half_angle_deg), np.exp(1j * np.radians(centre_deg))
-    one = np.ones(1)
+    ones = np.ones(1)
     limits = Limits(
-        radius=one,
-        max_mass=largest * one,
+        radius=ones,
+        max_mass=largest * ones,
         free=np.zeros(1, bool),
-        centre=towards * one,
-        half_angle_cos=np.cos(half) * one,
-        half_angle_sin=np.sin(half) * one,
+        centre=towards * ones,
+        half_angle_cos=np.cos(half) * ones,
+        half_angle_sin=np.sin(half) * ones,
         max_total_mass=np.asarray(budget),
     )
-    force = Response("force", "N", Phasors(np.asarray(20.0 + 0j), np.asarray(0j)), one)
+    force = Response("force", "N", Phasors(np.asarray(20.0 + 0j), np.asarray(0j)), ones)
     return statement(combined([weighted_peak(force, 1.0)], "sum"), [], limits)
 
 
@@ -121,12 +124,12 @@ def single(half_angle_deg: float, centre_deg: float, largest: float, budget: flo
 def test_one_web(half_angle: float, centre: float, largest: float, budget: float, objective: float) -> None:
     """Analytic: the nearest point of a sector."""
     problem = single(half_angle, centre, largest, budget).alone()
-    found = optima(problem, 1e-6, True)
-    assert found.objective[0] == pytest.approx(objective, abs=1.1e-6 * 20.0)
-    assert found.lower_bound[0] <= objective + 1e-12
+    bound = optima(problem, 1e-6, True)
+    assert bound.objective[0] == pytest.approx(objective, abs=1.1e-6 * 20.0)
+    assert bound.lower_bound[0] <= objective + 1e-12
     # on an edge that leads 60 degrees off, half of it is along; it may stop short by sqrt(2 * 17.3 * 2e-5)
     lightest = {0.0: 20.0, 15.0: 5.0}.get(objective, 10.0 if objective < 20.0 else 0.0)
-    assert found.mass[0] == pytest.approx(lightest, abs=0.03)
+    assert bound.mass[0] == pytest.approx(lightest, abs=0.03)
 
 
 def test_a_budget_of_nothing_leaves_nothing() -> None:
@@ -150,11 +153,11 @@ def test_a_ceiling_that_can_just_be_kept(room: float) -> None:
     problem = statement(
         combined([weighted_peak(force, 0.01), weighted_peak(moment, 1.0)], "sum"), [(force, 15.0 + room)], base.limits
     )
-    found = optima(problem.alone(), 1e-6, True)
-    assert not found.unreachable[0]
-    assert found.excess[0] <= 1e-9
+    actual_optima = optima(problem.alone(), 1e-6, True)
+    assert not actual_optima.unreachable[0]
+    assert actual_optima.excess[0] <= 1e-9
     # the web carries 5 - room, and at most what the ceiling leaves
-    assert found.mass[0] == pytest.approx(5.0 - room, abs=1e-5)
+    assert actual_optima.mass[0] == pytest.approx(5.0 - room, abs=1e-5)
 
 
 def test_a_ceiling_that_rest_keeps_and_the_optimum_does_not() -> None:
@@ -166,12 +169,12 @@ def test_a_ceiling_that_rest_keeps_and_the_optimum_does_not() -> None:
     )
     peaks = combined([weighted_peak(force, 1.0), weighted_peak(moment, 0.01)], "sum")
     for ceiling, load in ((4.0, 1.0), (7.5, 4.5), (8.5, 5.0)):
-        found = optima(statement(peaks, [(moment, ceiling)], base.limits).alone(), 1e-6, True)
-        assert found.excess[0] <= 0.0
-        assert found.mass[0] == pytest.approx(load, abs=1e-4)
-        assert found.objective[0] - found.lower_bound[0] <= 1e-6 * (20.0 + 0.03)
+        bound = optima(statement(peaks, [(moment, ceiling)], base.limits).alone(), 1e-6, True)
+        assert bound.excess[0] <= 0.0
+        assert bound.mass[0] == pytest.approx(load, abs=1e-4)
+        assert bound.objective[0] - bound.lower_bound[0] <= 1e-6 * (20.0 + 0.03)
         # one that is not met has no price
-        assert bool(np.any(found.multipliers.ceiling)) == (ceiling < 8.0)
+        assert bool(np.any(bound.multipliers.ceiling)) == (ceiling < 8.0)
 
 
 @pytest.mark.parametrize("case", SUMS)
@@ -279,9 +282,9 @@ def _steps(problem: Statement) -> Iterator[tuple[dict[str, Any], dict[str, Any],
         taken.append((of_web, of_edge, of_own, (least, budgeted)))
 
     space["step_webs"], space["step_peaks"] = webs, peaks
-    one = problem.alone()
-    reach, unit = np.minimum(one.limits.reach, 10.0), np.ones(1)
-    ((_, budgeted, programs),) = discs_of(one, reach, unit, 0.0)
+    actual_statement = problem.alone()
+    reach, unit = np.minimum(actual_statement.limits.reach, 10.0), np.ones(1)
+    ((_, budgeted, programs),) = discs_of(actual_statement, reach, unit, 0.0)
     with np.errstate(all="ignore"):
         space["solve"](*programs, budgeted, True, np.full(1, 1e-6), np.full(1, 1e-9), 1e-6)
     yield from taken
@@ -318,8 +321,8 @@ def test_a_step_solves_the_linearised_equations(budget: bool) -> None:
         if budgeted:
             spent = own["BUDGET"] * np.sum(cost * dx)
             off.append(np.array([own["LEFT"] * d_price - spent - own["R_LEFT"]]))
-        assert max(float(np.max(np.abs(each))) for each in off) <= 1e-12
+        assert max(float(np.max(np.abs(value))) for value in off) <= 1e-12
 
 
-def _dot(one: np.ndarray, other: np.ndarray) -> np.ndarray:
-    return np.real(one * np.conj(other))
+def _dot(first: np.ndarray, second: np.ndarray) -> np.ndarray:
+    return np.real(first * np.conj(second))

@@ -48,16 +48,16 @@ def once(program: Statement, u: Complex, target: float | None = None, mass_bound
 def test_dust_goes_and_the_others_make_up_for_it() -> None:
     """Force and couple of 1e-6 at 0.3 m, by two webs at -1 and 1 m: shares (1 -+ 0.3)/2 of it."""
     program = in_planes([-1.0, 1.0, 0.3])
-    found = once(program, np.array([-2.0, -2.5, 1e-6j]))
-    assert found[2] == 0.0
-    np.testing.assert_allclose(found[:2], [-2.0 + 0.35e-6j, -2.5 + 0.65e-6j], rtol=0, atol=1e-15)
+    variant = once(program, np.array([-2.0, -2.5, 1e-6j]))
+    assert variant[2] == 0.0
+    np.testing.assert_allclose(variant[:2], [-2.0 + 0.35e-6j, -2.5 + 0.65e-6j], rtol=0, atol=1e-15)
 
 
 def test_a_mass_next_to_its_limit_is_the_limit() -> None:
     program = in_planes([-1.0, 1.0, 0.3], max_mass=2.0)
-    found = once(program, np.array([-1.0, -2.0 * (1 - 1e-7), -1.5]))
-    assert found[1] == -2.0
-    assert program.objective(found) == pytest.approx(
+    variant = once(program, np.array([-1.0, -2.0 * (1 - 1e-7), -1.5]))
+    assert variant[1] == -2.0
+    assert program.objective(variant) == pytest.approx(
         program.objective(np.array([-1.0, -2.0 * (1 - 1e-7), -1.5])), abs=1e-15
     )
 
@@ -65,9 +65,9 @@ def test_a_mass_next_to_its_limit_is_the_limit() -> None:
 def test_an_angle_next_to_the_edge_is_the_edge() -> None:
     edge = -np.exp(1j * np.radians(30.0))
     program = in_planes([-1.0, 1.0, 0.3], half_angle=30.0)
-    found = once(program, np.array([-1.0, 2.0 * edge * np.exp(-1e-9j), -1.5]))
-    assert abs(np.imag(found[1] / edge)) <= 1e-15
-    assert abs(found[1]) == pytest.approx(2.0, abs=1e-8)
+    variant = once(program, np.array([-1.0, 2.0 * edge * np.exp(-1e-9j), -1.5]))
+    assert abs(np.imag(variant[1] / edge)) <= 1e-15
+    assert abs(variant[1]) == pytest.approx(2.0, abs=1e-8)
 
 
 def test_what_the_objective_needs_stays() -> None:
@@ -85,22 +85,22 @@ def test_nothing_gets_heavier_than_its_bound_allows() -> None:
     # one response of two rows that are alike for both webs: what one takes over the other gives, at the same mass
     np.testing.assert_allclose(once(program, u, mass_bound=2.99998), [-2.0, -1.0 + 2e-5], atol=1e-15)
     only = in_planes([0.0], max_mass=2.0)
-    one = np.array([-2.0 * (1 - 0.9e-5) + 0j])
-    assert once(only, one, mass_bound=2.0 * (1 - 1.1e-5)) == one
-    assert once(only, one, mass_bound=2.0 * (1 - 0.9e-5)) == pytest.approx(-2.0, abs=1e-15)
+    values = np.array([-2.0 * (1 - 0.9e-5) + 0j])
+    assert once(only, values, mass_bound=2.0 * (1 - 1.1e-5)) == values
+    assert once(only, values, mass_bound=2.0 * (1 - 0.9e-5)) == pytest.approx(-2.0, abs=1e-15)
 
 
 @given(st.integers(0, 10**6), st.sampled_from(COMBINATIONS))
 def test_answers_stay_optima(seed: int, kind: tuple[Any, ...]) -> None:
     """Limits, objective and mass as they are proven, whatever was settled."""
     program = random_statement(seed, *kind)
-    found = optimum(program, 1e-6, True)
-    assert isinstance(found, ConeSolution)
-    assert np.all(np.abs(found.unbalance) <= program.limits.reach * (1 + 1e-15))
-    assert found.gap <= 1e-6 * float(program.at_rest) * (1 + 1e-6)
-    assert found.mass - found.mass_lower_bound <= 1e-4 * found.mass
-    again = once(program, found.unbalance, found.mass_target, found.mass_lower_bound)
-    assert program.objective(again) <= found.mass_target + program.rounding(again)
+    solution = optimum(program, 1e-6, True)
+    assert isinstance(solution, ConeSolution)
+    assert np.all(np.abs(solution.unbalance) <= program.limits.reach * (1 + 1e-15))
+    assert solution.gap <= 1e-6 * float(program.at_rest) * (1 + 1e-6)
+    assert solution.mass - solution.mass_lower_bound <= 1e-4 * solution.mass
+    again = once(program, solution.unbalance, solution.mass_target, solution.mass_lower_bound)
+    assert program.objective(again) <= solution.mass_target + program.rounding(again)
 
 
 @given(st.lists(st.integers(0, 10**6), min_size=2, max_size=5, unique=True))

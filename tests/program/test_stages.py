@@ -57,26 +57,26 @@ def test_values_are_what_goals_and_ceilings_are(share: float) -> None:
         peak.append(np.max(np.abs(values)) + more)
     (row,) = program.goals[1].groups[0].rows
     external = sum(
-        float(each.floor + np.sum(np.abs(each.norms.at(u))) + share * np.sum(np.abs(each.norms.influence * u)))
-        for each in row.peaks
+        float(maximum.floor + np.sum(np.abs(maximum.norms.at(u))) + share * np.sum(np.abs(maximum.norms.influence * u)))
+        for maximum in row.peaks
     )
     expected = [max(max(peak[:2]) + 2.0 * peak[2], 0.5 * peak[3]), external + peak[1]]
-    found = program.values(u, 1e-9)
-    assert found.goals == pytest.approx(expected, rel=1e-5)
+    programs = program.values(u, 1e-9)
+    assert programs.goals == pytest.approx(expected, rel=1e-5)
     size = max(1.7, program.at_rest.reached[2].upper)
-    assert found.over == pytest.approx([(peak[2] - 1.7) / size], abs=1e-5)
-    assert found.excess == found.over[0]
-    assert found.over_budget == -1.0
-    seen, places = program.sample_values(u, np.full(4, np.inf))
-    assert np.all(seen.goals <= found.goals * (1.0 + 1e-12))
-    assert seen.goals == pytest.approx(expected, rel=1e-5)
-    assert [len(each) for each in places] == [1] * 4
+    assert programs.over == pytest.approx([(peak[2] - 1.7) / size], abs=1e-5)
+    assert programs.excess == programs.over[0]
+    assert programs.over_budget == -1.0
+    actual, places = program.sample_values(u, np.full(4, np.inf))
+    assert np.all(actual.goals <= programs.goals * (1.0 + 1e-12))
+    assert actual.goals == pytest.approx(expected, rel=1e-5)
+    assert [len(place) for place in places] == [1] * 4
     # the statement of the cuts to begin with is no more than the truth
     posed = program.begun
     levels = posed.largest(posed.rows(posed.norms.sizes(u)))
-    assert np.all(program.of_goals(levels) <= found.goals * (1.0 + 1e-9))
+    assert np.all(program.of_goals(levels) <= programs.goals * (1.0 + 1e-9))
     assert posed.ceilings.names == ("bearing 2",) * len(program.first[2])
-    assert np.all(posed.ceilings.excess(u) <= found.over[0] + 1e-9)
+    assert np.all(posed.ceilings.excess(u) <= programs.over[0] + 1e-9)
 
 
 def test_the_smallest_excess_is_a_goal_of_its_own() -> None:
@@ -138,9 +138,9 @@ def test_points_are_moved_inside_just_so_far() -> None:
     assert search._promise(point) == search.figure(point)
     promised = search.figure(beyond) + line * (search.figure(inside) - search.figure(beyond))
     assert search._promise(beyond) == pytest.approx(promised)
-    kept = search._feasible(point)
+    position = search._feasible(point)
     assert search.near is point
-    assert search.figure(kept) <= search.figure(point)
+    assert search.figure(position) <= search.figure(point)
 
 
 def test_widths_and_gaps_that_are_wanted_are_shares_of_what_is_asked() -> None:
@@ -149,10 +149,10 @@ def test_widths_and_gaps_that_are_wanted_are_shares_of_what_is_asked() -> None:
     search, inside = _search(program, 1e9)
     assert (search.of_mass, search.free) == (False, False)
     size = program.units
-    kept = 1e-9 / float(size[0])
+    value = 1e-9 / float(size[0])
     assert search._gap_limit(0.3, inside) == 0.3
-    assert search._width(1e-9, np.inf) == pytest.approx(0.1 * min(kept, 1e-9 / float(size[-1])))
-    assert search._width(1e-12, 1.0) == pytest.approx(0.1 * min(kept, 0.1 / float(size[-1])))
+    assert search._width(1e-9, np.inf) == pytest.approx(0.1 * min(value, 1e-9 / float(size[-1])))
+    assert search._width(1e-12, 1.0) == pytest.approx(0.1 * min(value, 0.1 / float(size[-1])))
     search.price = np.array([2.0])
     search._spare(1e-10)
     assert search.margin == pytest.approx([max(1e-12 * float(size[0]), 0.1 * 1e-10 / 2.0)])
@@ -176,27 +176,29 @@ def test_a_level_matters_to_what_may_be_above_it() -> None:
     u = random_point(np.random.default_rng(6), program.limits) / 300.0
     posed = program.begun
     level = posed.largest(posed.rows(posed.norms.sizes(u)))
-    found = search._matters(posed, u)
+    values = search._matters(posed, u)
     lowered = 1.7 + 2e-10 * program.sizes[0]
-    assert found == pytest.approx([level[0], min(level[0], level[4]), min(level[1] / 2.0, lowered), level[2] / 0.5])
+    assert values == pytest.approx([level[0], min(level[0], level[4]), min(level[1] / 2.0, lowered), level[2] / 0.5])
 
 
 def test_a_proof_without_a_solver_is_the_best_of_every_case() -> None:
     """Independent: the bounds of the statement of each case of the last goal."""
     program = _several().alone(0)
     statement = program.begun
-    found = resting_proof(program, program.first, statement)
+    proof = resting_proof(program, program.first, statement)
     bounds = []
     for case in (0, 1):
         alone = times(statement, (program.case_of == case).astype(float))
-        bounds += [float(objective_lower_bound(alone, each)) for each in resting_multipliers(alone)]
-    assert found.bound >= max(bounds) - 1e-12
-    assert found.bound <= float(program.at_rest.goals[0]) * (1.0 + 1e-9)
-    assert found.cuts == tuple(len(each) for each in program.first)
-    assert objective_lower_bound(found.statement, found.multipliers) == pytest.approx(found.bound, rel=1e-12)
-    nearer = found.within(replace(statement.limits, max_mass=np.zeros(WEBS)))
+        bounds += [
+            float(objective_lower_bound(alone, resting_multiplier)) for resting_multiplier in resting_multipliers(alone)
+        ]
+    assert proof.bound >= max(bounds) - 1e-12
+    assert proof.bound <= float(program.at_rest.goals[0]) * (1.0 + 1e-9)
+    assert proof.cuts == tuple(len(values) for values in program.first)
+    assert objective_lower_bound(proof.statement, proof.multipliers) == pytest.approx(proof.bound, rel=1e-12)
+    nearer = proof.within(replace(statement.limits, max_mass=np.zeros(WEBS)))
     assert np.all(nearer.statement.limits.max_mass == 0.0)
-    assert objective_lower_bound(nearer.statement, nearer.multipliers) >= found.bound
+    assert objective_lower_bound(nearer.statement, nearer.multipliers) >= proof.bound
 
 
 def test_groups_times_factors() -> None:
@@ -219,15 +221,15 @@ def test_multipliers_of_several_goals_prove_what_is_below_both(seed: int) -> Non
     statement = times(program.begun, 1.0 / program.units[program.goal_of])
     rng = np.random.default_rng(seed)
     some = [0.02 * rng.random() * random_point(rng, program.limits) for _ in range(40)]
-    goals = np.array([program.values(each, 1e-9).goals for each in some])
+    goals = np.array([program.values(values, 1e-9).goals for values in some])
     level = float(np.median(goals[:, 0]))
     lowest = float(np.min(goals[goals[:, 0] <= level, 1]))
     dual, *_ = resting_multipliers(statement)
     _, rest = resting_multipliers(statement)
     bounds = [
-        each.bound
+        proof.bound
         for multipliers in (dual, rest)
-        for each in proofs(program, program.first, program.begun, some[0], multipliers, np.array([level]))
+        for proof in proofs(program, program.first, program.begun, some[0], multipliers, np.array([level]))
     ]
     assert bounds
     assert max(bounds) <= lowest * (1.0 + 1e-9)

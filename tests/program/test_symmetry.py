@@ -24,10 +24,10 @@ EXAMPLES = Path(__file__).parents[2] / "examples"
 PLANES = (-0.5, -0.2, 0.2, 0.5)
 
 
-def program(made: ReciprocatingMachine, **objective: float) -> Statement:
-    plan = layout(made)
-    found = responses(plan, rotating(plan).plus(reciprocating(plan, 1)), Objective())
-    return cone_program(made, Objective.model_validate(objective), found, plan.omega**2).alone()
+def program(design: ReciprocatingMachine, **objective: float) -> Statement:
+    plan = layout(design)
+    quantities = responses(plan, rotating(plan).plus(reciprocating(plan, 1)), Objective())
+    return cone_program(design, Objective.model_validate(objective), quantities, plan.omega**2).alone()
 
 
 def two_throws(first: float, second: float, webs: list[Web], kg: tuple[float, float] = (9.0, 9.0)) -> Statement:
@@ -44,39 +44,39 @@ def some(webs: int) -> Complex:
     return (rng.uniform(-1, 1, webs) + 1j * rng.uniform(-1, 1, webs))[None]
 
 
-def no_worse(statement: Statement, u: Complex, found: Complex) -> bool:
-    sizes = np.all(statement.norms.sizes(found) <= statement.norms.sizes(u) * (1 + 1e-12) + 1e-15)
-    return bool(sizes and statement.mass(found)[0] <= statement.mass(u)[0] * (1 + 1e-12))
+def no_worse(statement: Statement, u: Complex, values: Complex) -> bool:
+    sizes = np.all(statement.norms.sizes(values) <= statement.norms.sizes(u) * (1 + 1e-12) + 1e-15)
+    return bool(sizes and statement.mass(values)[0] <= statement.mass(u)[0] * (1 + 1e-12))
 
 
 def test_webs_in_one_place_get_their_mean() -> None:
     """Analytic: nothing else is alike, so that nothing else moves."""
     webs = [web("a", 0.1), web("b", 0.1), web("c", 0.1, radius_m=0.1), web("d", 0.4)]
     statement, u = two_throws(10.0, 70.0, webs, (9.0, 5.0)), some(4)
-    found = symmetric(statement, u)
-    assert found[0, 0] == found[0, 1] == pytest.approx(0.5 * (u[0, 0] + u[0, 1]), rel=1e-15)
-    assert np.array_equal(found[0, 2:], u[0, 2:])
-    assert no_worse(statement, u, found)
+    matrix = symmetric(statement, u)
+    assert matrix[0, 0] == matrix[0, 1] == pytest.approx(0.5 * (u[0, 0] + u[0, 1]), rel=1e-15)
+    assert np.array_equal(matrix[0, 2:], u[0, 2:])
+    assert no_worse(statement, u, matrix)
 
 
 @pytest.mark.parametrize(("first", "second"), [(0.0, 180.0), (25.0, 205.0)])
 def test_opposite_cranks_are_alike_from_both_ends(first: float, second: float) -> None:
     """Analytic: u_k and -u of the other end are one, and along the cranks, whose plane is a mirror."""
     statement, u = two_throws(first, second, four_webs()), some(4)
-    found = symmetric(statement, u)[0]
-    assert found == pytest.approx(-found[::-1], abs=1e-15)
-    assert np.abs((found * np.exp(-1j * np.radians(first))).imag) == pytest.approx(0.0, abs=1e-15)
-    assert no_worse(statement, u, found[None])
+    actual = symmetric(statement, u)[0]
+    assert actual == pytest.approx(-actual[::-1], abs=1e-15)
+    assert np.abs((actual * np.exp(-1j * np.radians(first))).imag) == pytest.approx(0.0, abs=1e-15)
+    assert no_worse(statement, u, actual[None])
 
 
 def test_cranks_at_an_angle_are_mirror_images_from_both_ends() -> None:
     """Analytic: with cranks at +-40 degrees of 30 the other end is the mirror image at 30 degrees."""
     statement, u = two_throws(70.0, -10.0, four_webs()), some(4)
-    found = symmetric(statement, u)[0]
-    mirrored = np.exp(2j * np.radians(30.0)) * np.conj(found[::-1])
-    assert found == pytest.approx(mirrored, abs=1e-14)
-    assert np.abs(found.imag).max() > 0.01
-    assert no_worse(statement, u, found[None])
+    actual = symmetric(statement, u)[0]
+    mirrored = np.exp(2j * np.radians(30.0)) * np.conj(actual[::-1])
+    assert actual == pytest.approx(mirrored, abs=1e-14)
+    assert np.abs(actual.imag).max() > 0.01
+    assert no_worse(statement, u, actual[None])
 
 
 @pytest.mark.parametrize(
@@ -112,45 +112,45 @@ def test_many_programs_are_each_as_if_alone() -> None:
     u = some(4)
     for programs in (alike, unlike):
         both = programs.subset(np.array([0, 0]))
-        other = np.stack([u[0], 2 * u[0]])
-        assert np.array_equal(symmetric(both, other)[:1], symmetric(programs, u))
+        values = np.stack([u[0], 2 * u[0]])
+        assert np.array_equal(symmetric(both, values)[:1], symmetric(programs, u))
 
 
 def test_of_kinds_that_differ_nothing_is_alike() -> None:
     statement, u = two_throws(0.0, 180.0, four_webs()), some(4)
     assert not np.array_equal(symmetric(statement, u, np.array([0, 1, 1, 0])), u)
-    kept = symmetric(statement, u, np.array([0, 1, 2, 3]))
+    matrix = symmetric(statement, u, np.array([0, 1, 2, 3]))
     # the plane of the cranks is a mirror all the same
-    assert np.abs(kept.imag).max() == 0.0
+    assert np.abs(matrix.imag).max() == 0.0
 
 
 def test_it_can_be_left_out() -> None:
     body = json.loads((EXAMPLES / "v8-cross-plane.json").read_bytes())
-    plain, asked = (
-        optimize(OptimizeRequest.model_validate({**body, "objective": {"symmetric": each}})) for each in (False, True)
+    plain, answer = (
+        optimize(OptimizeRequest.model_validate({**body, "objective": {"symmetric": value}})) for value in (False, True)
     )
-    assert plain.status == asked.status == "optimal"
-    masses = [one.mass_kg for one in asked.counterweights]
+    assert plain.status == answer.status == "optimal"
+    masses = [counterweight.mass_kg for counterweight in answer.counterweights]
     assert masses == pytest.approx(masses[::-1], rel=1e-12)
-    assert plain.total_mass_kg == pytest.approx(asked.total_mass_kg, rel=1e-9)
-    assert asked.certificate is not None
-    assert asked.certificate.relative_gap is not None
-    assert asked.certificate.relative_gap <= 1e-6
+    assert plain.total_mass_kg == pytest.approx(answer.total_mass_kg, rel=1e-9)
+    assert answer.certificate is not None
+    assert answer.certificate.relative_gap is not None
+    assert answer.certificate.relative_gap <= 1e-6
 
 
 def test_the_two_columns_of_the_2d12_are_not_alike() -> None:
     """Independent: its masses differ, and both ways to make its webs alike come to more than what is proven."""
     request = OptimizeRequest.model_validate(json.loads((EXAMPLES / "2d12.json").read_bytes()))
-    found = optimize(request)
-    assert found.certificate is not None
-    assert [round(one.mass_kg, 4) for one in found.counterweights] == [60.0, 60.0, 52.7004, 60.0]
-    made = request.machine
-    assert isinstance(made, ReciprocatingMachine)
-    statement = program(made)
-    square = float(layout(made).omega ** 2)
+    answer = optimize(request)
+    assert answer.certificate is not None
+    assert [round(counterweight.mass_kg, 4) for counterweight in answer.counterweights] == [60.0, 60.0, 52.7004, 60.0]
+    design = request.machine
+    assert isinstance(design, ReciprocatingMachine)
+    statement = program(design)
+    square = float(layout(design).omega ** 2)
     for masses in ((60.0, 60.0, 56.3502, 56.3502), (60.0, 60.0, 60.0, 60.0), (58.1751,) * 4):
         u = 0.25 * np.array(masses) * np.array([-1, -1, 1, 1])
-        assert float(statement.objective(u[None])[0]) * square > found.certificate.objective * 1.0001
+        assert float(statement.objective(u[None])[0]) * square > answer.certificate.objective * 1.0001
 
 
 @pytest.mark.parametrize("seed", range(6))
@@ -160,7 +160,7 @@ def test_the_order_of_the_webs_changes_nothing(seed: int) -> None:
     places = rng.choice([0.1, 0.2, 0.35, 0.5], 9)
     webs = [web(str(k), z) for k, z in enumerate(np.concatenate([places, -places[:7]]).tolist())]
     u, order = some(16), rng.permutation(16)
-    found = symmetric(two_throws(10.0, 190.0, webs), u)
+    matrix = symmetric(two_throws(10.0, 190.0, webs), u)
     again = symmetric(two_throws(10.0, 190.0, [webs[k] for k in order]), u[:, order])
-    assert not np.array_equal(found, u)
-    np.testing.assert_allclose(again, found[:, order], rtol=1e-13, atol=1e-15)
+    assert not np.array_equal(matrix, u)
+    np.testing.assert_allclose(again, matrix[:, order], rtol=1e-13, atol=1e-15)

@@ -82,31 +82,37 @@ def test_an_optimum_is_within_the_gap_that_was_requested(share: float, reason: s
 def test_a_mass_is_told_to_a_share_of_itself_or_of_what_counts() -> None:
     assert verdict(_claim(mass_bound=4.0 * (1 - 9e-5)), 1e-6).reason == OPTIMAL_LIGHTEST
     assert verdict(_claim(mass_bound=4.0 * (1 - 1.1e-4)), 1e-6).reason == NOT_LIGHT
-    found = verdict(_claim(mass_bound=3.9), 1e-6)
-    assert (found.status, found.reason) == ("inaccurate", NOT_LIGHT)
-    assert found.mass_gap == pytest.approx(0.1 / 4.0)
-    assert found.mass_yardstick == 4.0
+    judgement = verdict(_claim(mass_bound=3.9), 1e-6)
+    assert (judgement.status, judgement.reason) == ("inaccurate", NOT_LIGHT)
+    assert judgement.mass_gap == pytest.approx(0.1 / 4.0)
+    assert judgement.mass_yardstick == 4.0
     # a tenth of a microgram is half proven: it depends on what a mass has to be to count
     tiny = _claim(mass=1e-10, mass_bound=0.5e-10)
     assert verdict(tiny, 1e-6).status == "inaccurate"
-    found = verdict(replace(tiny, mass_resolution=np.asarray(1e-6)), 1e-6)
-    assert found.status == "optimal"
-    assert found.mass_yardstick == 1e-6
-    assert found.mass_gap == pytest.approx(0.5e-4)
+    finding = verdict(replace(tiny, mass_resolution=np.asarray(1e-6)), 1e-6)
+    assert finding.status == "optimal"
+    assert finding.mass_yardstick == 1e-6
+    assert finding.mass_gap == pytest.approx(0.5e-4)
 
 
 def test_a_bound_above_the_value_by_its_rounding_is_the_value(caplog: pytest.LogCaptureFixture) -> None:
-    found = verdict(_claim(bound=10.0 + 0.9e-12), 1e-6)
-    assert (found.status, float(found.lower_bound[0]), float(found.gap[0])) == ("optimal", 10.0, 0.0)
+    bound = verdict(_claim(bound=10.0 + 0.9e-12), 1e-6)
+    assert (bound.status, float(bound.lower_bound[0]), float(bound.gap[0])) == ("optimal", 10.0, 0.0)
     assert not caplog.records
 
 
 @pytest.mark.parametrize("false", [_claim(bound=10.1), _claim(mass_bound=4.1)])
 def test_a_contradiction_is_a_fault_that_is_said(false: Claim, caplog: pytest.LogCaptureFixture) -> None:
     """Never clipped: nothing is proven, and it is logged."""
-    found = verdict(false, 1e-6)
-    assert (found.status, found.reason) == ("inaccurate", CONTRADICTED)
-    for figure in (found.lower_bound, found.gap, found.relative_gap, found.mass_lower_bound, found.mass_gap):
+    certificate = verdict(false, 1e-6)
+    assert (certificate.status, certificate.reason) == ("inaccurate", CONTRADICTED)
+    for figure in (
+        certificate.lower_bound,
+        certificate.gap,
+        certificate.relative_gap,
+        certificate.mass_lower_bound,
+        certificate.mass_gap,
+    ):
         assert np.all(np.isnan(figure))
     assert [record.levelno for record in caplog.records] == [logging.ERROR]
 

@@ -19,8 +19,8 @@ ORDERS = np.arange(-6.0, 7.0)
 
 def wide(webs: int, max_mass: float = 1e3) -> Limits:
     """Limits that do not bind."""
-    one = np.ones(webs)
-    return Limits(0.2 * one, max_mass * one, np.ones(webs, bool), one + 0j, 0.0 * one, one, np.asarray(np.inf))
+    ones = np.ones(webs)
+    return Limits(0.2 * ones, max_mass * ones, np.ones(webs, bool), ones + 0j, 0.0 * ones, ones, np.asarray(np.inf))
 
 
 def quantities(

@@ -54,14 +54,14 @@ SEED: dict[str, Any] = {
 
 def body(*changes: tuple[str, Any], **more: Any) -> dict[str, Any]:
     """The seed's request with changes, each a path such as "stages/0/bore_m" and a value."""
-    found = copy.deepcopy(SEED)
+    variant = copy.deepcopy(SEED)
     for path, value in (*changes, *more.items()):
-        inner: Any = found
+        inner: Any = variant
         *way, last = [int(step) if step.isdigit() else step for step in path.split("/")]
         for step in way:
             inner = inner[step]
         inner[last] = value
-    return found
+    return variant
 
 
 def request(*changes: tuple[str, Any], **more: Any) -> RatingRequest:
@@ -75,8 +75,8 @@ def rods(diameter_m: float) -> list[tuple[str, Any]]:
 
 def figure(name: str) -> tuple[Any, Any, float]:
     """Inputs, expected figures and tolerance of a check of the seed."""
-    found = next(one for one in FIGURES["checks"] if one["id"] == name)
-    return found["inputs"], found["expected"], found["atol"]
+    value = next(entry for entry in FIGURES["checks"] if entry["id"] == name)
+    return value["inputs"], value["expected"], value["atol"]
 
 
 def near(value: Any, atol: float) -> Any:
@@ -111,7 +111,7 @@ def requests(draw: st.DrawFn, **fixed: Any) -> RatingRequest:
         }
         for index in range(count)
     ]
-    given = {
+    machine = {
         "capacity_m3_per_min": draw(_number(5.0, 100.0)),
         "suction_pressure_Pa": p1,
         "discharge_pressure_Pa": p1 * ratio**count,
@@ -122,4 +122,4 @@ def requests(draw: st.DrawFn, **fixed: Any) -> RatingRequest:
         "bore_series": series,
         "stages": stages,
     }
-    return RatingRequest.model_validate({**given, **fixed})
+    return RatingRequest.model_validate({**machine, **fixed})

@@ -19,19 +19,19 @@ from schemas.rating.request import RatingRequest
 from tests.rating.design import body, request, requests
 
 
-def with_stages(one: RatingRequest, **changes: object) -> RatingRequest:
+def with_stages(query: RatingRequest, **changes: object) -> RatingRequest:
     """The request with every stage changed."""
-    return one.model_copy(update={"stages": tuple(stage.model_copy(update=changes) for stage in one.stages)})
+    return query.model_copy(update={"stages": tuple(stage.model_copy(update=changes) for stage in query.stages)})
 
 
 @given(requests())
-def test_pressure_ratios_multiply_to_the_whole(one: RatingRequest) -> None:
-    answer = rate(one)
+def test_pressure_ratios_multiply_to_the_whole(query: RatingRequest) -> None:
+    answer = rate(query)
     for states in zip(*[(s.nominal, s.corrected) for s in answer.stages], strict=True):
         product = math.prod(state.pressure_ratio for state in states)
         assert product == pytest.approx(answer.total_pressure_ratio, rel=1e-12)
-        assert states[0].suction_pressure_Pa == one.suction_pressure_Pa
-        assert states[-1].discharge_pressure_Pa == one.discharge_pressure_Pa
+        assert states[0].suction_pressure_Pa == query.suction_pressure_Pa
+        assert states[-1].discharge_pressure_Pa == query.discharge_pressure_Pa
         for before, after in pairwise(states):
             assert before.discharge_pressure_Pa == pytest.approx(after.suction_pressure_Pa, rel=1e-14)
     nominal = [stage.nominal.pressure_ratio for stage in answer.stages]
@@ -39,9 +39,9 @@ def test_pressure_ratios_multiply_to_the_whole(one: RatingRequest) -> None:
 
 
 @given(requests(bore_series="none"))
-def test_capacity_is_recovered_without_rounding_and_losses(one: RatingRequest) -> None:
-    answer = rate(with_stages(one, suction_pressure_loss=0.0, discharge_pressure_loss=0.0))
-    assert answer.capacity_m3_per_min == pytest.approx(one.capacity_m3_per_min, rel=1e-12)
+def test_capacity_is_recovered_without_rounding_and_losses(query: RatingRequest) -> None:
+    answer = rate(with_stages(query, suction_pressure_loss=0.0, discharge_pressure_loss=0.0))
+    assert answer.capacity_m3_per_min == pytest.approx(query.capacity_m3_per_min, rel=1e-12)
     for stage in answer.stages:
         assert stage.actual.bore_m == stage.calculated.bore_m
         assert stage.corrected.pressure_ratio == pytest.approx(stage.nominal.pressure_ratio, rel=1e-12)
@@ -50,24 +50,24 @@ def test_capacity_is_recovered_without_rounding_and_losses(one: RatingRequest) -
 
 
 @given(requests())
-def test_moles_are_conserved_from_stage_to_stage(one: RatingRequest) -> None:
+def test_moles_are_conserved_from_stage_to_stage(query: RatingRequest) -> None:
     """Independent of (1-9): p V lam_d / T of a stage is that of the first, less condensate, with side flows."""
-    stages = rate(one).stages
+    stages = rate(query).stages
 
     def moles(i: int) -> float:
-        stage, kelvin = stages[i], one.stages[i].suction_temperature_K
+        stage, kelvin = stages[i], query.stages[i].suction_temperature_K
         volume = stage.calculated.swept_volume_m3 * stage.design_coefficients.delivery
         return stage.nominal.suction_pressure_Pa * volume / kelvin
 
     for i, stage in enumerate(stages):
-        share = stage.condensate_coefficient * one.stages[i].side_flow_coefficient
+        share = stage.condensate_coefficient * query.stages[i].side_flow_coefficient
         assert moles(i) / moles(0) == pytest.approx(share, rel=1e-12)
         assert 0.0 < stage.condensate_coefficient <= 1.0
 
 
 @given(requests())
-def test_cylinders_fit_into_the_rows_of_a_machine(one: RatingRequest) -> None:
-    answer = RatingAnswer.model_validate_json(rate(one).model_dump_json())
+def test_cylinders_fit_into_the_rows_of_a_machine(query: RatingRequest) -> None:
+    answer = RatingAnswer.model_validate_json(rate(query).model_dump_json())
     for stage in answer.stages:
         posted = stage.cylinder.model_dump_json()
         row = Row.model_validate({"axis_deg": 0, "reciprocating_mass_kg": 1, "cylinder": stage.cylinder.model_dump()})
@@ -75,8 +75,8 @@ def test_cylinders_fit_into_the_rows_of_a_machine(one: RatingRequest) -> None:
 
 
 @given(requests())
-def test_every_figure_is_a_number_of_its_sign(one: RatingRequest) -> None:
-    answer = rate(one)
+def test_every_figure_is_a_number_of_its_sign(query: RatingRequest) -> None:
+    answer = rate(query)
     assert answer.motor_power_W >= answer.shaft_power_W >= answer.indicated_power_W > 0.0
     for stage in answer.stages:
         for coefficients in (stage.design_coefficients, stage.actual_coefficients):
@@ -99,9 +99,9 @@ def test_a_bore_sweeps_the_volume_that_it_was_calculated_for(
 
 @pytest.mark.parametrize("acting", ["double", "head", "crank"])
 def test_a_single_stage_analytic(acting: str) -> None:
-    one = body(discharge_pressure_Pa=0.9e6, mean_piston_speed_m_s=3.5, bore_series="none", ambient_pressure_Pa=1e5)
-    one["stages"] = [{**one["stages"][0], "acting": acting, "bore_m": 0.5, "piston_rod_diameter_m": 0.1}]
-    (stage,) = rate(RatingRequest.model_validate(one)).stages
+    payload = body(discharge_pressure_Pa=0.9e6, mean_piston_speed_m_s=3.5, bore_series="none", ambient_pressure_Pa=1e5)
+    payload["stages"] = [{**payload["stages"][0], "acting": acting, "bore_m": 0.5, "piston_rod_diameter_m": 0.1}]
+    (stage,) = rate(RatingRequest.model_validate(payload)).stages
     p_s, p_d = 0.3e6 * (1 - 0.036), 0.9e6 * (1 + 0.061)
     head, crank = math.pi * 0.0625, math.pi * (0.0625 - 0.0025)
     outer = {"double": p_s * crank - p_d * head, "head": 1e5 * crank - p_d * head, "crank": p_s * crank - 1e5 * head}
@@ -125,8 +125,8 @@ def test_indicated_power_is_the_area_of_the_diagram_independent() -> None:
         return float(np.trapezoid(p * (v / np.exp(x)) ** n * np.exp(x), x))
 
     taken = small * (p_d / p_s) ** (1 / n)
-    given_out = large * (p_s / p_d) ** (1 / n)
-    total = work(p_d, small, p_s) + p_s * (large - taken) + work(p_s, large, p_d) + p_d * (small - given_out)
+    value = large * (p_s / p_d) ** (1 / n)
+    total = work(p_d, small, p_s) + p_s * (large - taken) + work(p_s, large, p_d) + p_d * (small - value)
     lam_v = 1 - clearance * ((p_d / p_s) ** (1 / n) - 1)
     assert indicated_power(p_s, volume, lam_v, p_d / p_s, n, 600.0) == pytest.approx(-10 * total, rel=1e-9)
 
@@ -158,14 +158,14 @@ def test_isothermal_limit_analytic() -> None:
 )
 def test_figures_grow_as_physics_says(path: str, low: float, high: float, figure: object) -> None:
     values = [rate(request((path, x), bore_series="none")) for x in np.linspace(low, high, 5).tolist()]
-    figures = [figure(one) for one in values]  # type: ignore[operator]
+    figures = [figure(answer) for answer in values]  # type: ignore[operator]
     assert all(after > before for before, after in pairwise(figures))
 
 
 def test_cylinders_share_the_volume_analytic() -> None:
     alone, shared = (rate(request(("stages/0/cylinders", n), bore_series="none")).stages[0] for n in (1, 2))
     assert shared.calculated.swept_volume_m3 == pytest.approx(alone.calculated.swept_volume_m3, rel=1e-14)
-    areas = [one.calculated.head_area_m2 + one.calculated.crank_area_m2 for one in (alone, shared)]
+    areas = [rating.calculated.head_area_m2 + rating.calculated.crank_area_m2 for rating in (alone, shared)]
     assert areas[1] == pytest.approx(areas[0] / 2, rel=1e-14)
     assert shared.indicated_power_W == pytest.approx(alone.indicated_power_W, rel=1e-12)
 
@@ -201,7 +201,7 @@ def test_pressures_keep_the_rounded_bores_fed_analytic() -> None:
     """A second stage built a percent larger draws its suction pressure down by as much."""
     exact = rate(request(bore_series="none"))
     piston = Piston(count=1, acting="double", rod=0.11, stroke=0.28)
-    first, second = (one.calculated for one in exact.stages)
+    first, second = (stage.calculated for stage in exact.stages)
     larger = rate(
         request(("stages/0/bore_m", first.bore_m), ("stages/1/bore_m", piston.bore(1.01 * second.swept_volume_m3)))
     )

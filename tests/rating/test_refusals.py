@@ -22,11 +22,11 @@ def refused(changes: dict[str, Any]) -> list[Path]:
     """Paths of the fields that the request model refuses."""
     with pytest.raises(ValidationError) as caught:
         RatingRequest.model_validate(body(**changes))
-    found: list[Path] = []
+    locs: list[Path] = []
     for error in caught.value.errors():
         problems = error["ctx"]["problems"] if error["type"] == "cross_field" else None
-        found += [error["loc"]] if problems is None else [(*error["loc"], *p.path) for p in problems]
-    return found
+        locs += [error["loc"]] if problems is None else [(*error["loc"], *p.path) for p in problems]
+    return locs
 
 
 @pytest.mark.parametrize(
@@ -114,10 +114,10 @@ def test_what_no_machine_can_do_names_its_field(changes: dict[str, Any], path: P
 
 def test_rounding_a_bore_must_not_swallow_the_rod() -> None:
     """Calculated 101.9 mm around a rod of 101 mm, rounded to 100 mm."""
-    one = body(capacity_m3_per_min=1, discharge_pressure_Pa=0.9e6, bore_series="R20")
-    stage = {**one["stages"][0], "acting": "head", "piston_rod_diameter_m": 0.0}
-    bore = rate(RatingRequest.model_validate({**one, "stages": [stage]})).stages[0].calculated.bore_m
-    small = {**one, "capacity_m3_per_min": (0.1019 / bore) ** 2}
+    payload = body(capacity_m3_per_min=1, discharge_pressure_Pa=0.9e6, bore_series="R20")
+    stage = {**payload["stages"][0], "acting": "head", "piston_rod_diameter_m": 0.0}
+    bore = rate(RatingRequest.model_validate({**payload, "stages": [stage]})).stages[0].calculated.bore_m
+    small = {**payload, "capacity_m3_per_min": (0.1019 / bore) ** 2}
     with pytest.raises(OutOfRange, match="rounded") as caught:
         rate(RatingRequest.model_validate({**small, "stages": [{**stage, "piston_rod_diameter_m": 0.101}]}))
     assert [problem.path for problem in caught.value.problems] == [("stages", 0, "piston_rod_diameter_m")]
@@ -127,7 +127,7 @@ def numbers(value: Any, path: Path = ()) -> list[Path]:
     """Paths of all numbers in a body."""
     if isinstance(value, dict | list):
         items = value.items() if isinstance(value, dict) else enumerate(value)
-        return [found for key, one in items for found in numbers(one, (*path, key))]
+        return [number for key, value in items for number in numbers(value, (*path, key))]
     return [path] if isinstance(value, int | float) and not isinstance(value, bool) else []
 
 
@@ -181,19 +181,19 @@ def test_the_ends_of_all_ranges_are_answered_or_refused(data: st.DataObject) -> 
 def answered_or_refused(changes: list[tuple[str, Any]]) -> None:
     """A request is refused, or no machine can do it, or every figure of the answer is finite."""
     try:
-        one = RatingRequest.model_validate(body(*changes))
+        query = RatingRequest.model_validate(body(*changes))
     except ValidationError:
         return
     # outside the try: an invalid answer is an error
     with contextlib.suppress(OutOfRange):
-        answer = rate(one)
+        answer = rate(query)
         assert all(math.isfinite(x) for x in _values(answer.model_dump()))
         assert RatingAnswer.model_validate_json(answer.model_dump_json()) == answer
 
 
 def _values(value: Any) -> list[float]:
     if isinstance(value, dict):
-        return [x for one in value.values() for x in _values(one)]
+        return [x for value in value.values() for x in _values(value)]
     if isinstance(value, list | tuple):
-        return [x for one in value for x in _values(one)]
+        return [x for value in value for x in _values(value)]
     return [value] if isinstance(value, float) else []

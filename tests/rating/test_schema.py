@@ -24,9 +24,9 @@ def test_the_seeds_request_satisfies_the_published_schema() -> None:
 
 
 def test_a_request_is_written_as_it_was_read() -> None:
-    one = request(interstage_pressures_Pa=["7.9 bar"])
-    assert RatingRequest.model_validate_json(one.model_dump_json()) == one
-    assert one.interstage_pressures_Pa == (790000.0,)
+    query = request(interstage_pressures_Pa=["7.9 bar"])
+    assert RatingRequest.model_validate_json(query.model_dump_json()) == query
+    assert query.interstage_pressures_Pa == (790000.0,)
 
 
 def test_models_are_frozen() -> None:

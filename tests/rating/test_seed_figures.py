@@ -15,79 +15,83 @@ from tests.rating.design import FIGURES, figure, near
 
 
 def test_pressure_ratio_published() -> None:
-    given, expected, atol = figure("004-ratio")
-    pressures = equal_split(given["p1"], given["p2"], given["z"])
+    inputs, expected, atol = figure("004-ratio")
+    pressures = equal_split(inputs["p1"], inputs["p2"], inputs["z"])
     assert pressures[1] / pressures[0] == near(expected["eps"], atol)
-    assert pressures[0] == given["p1"]
-    assert pressures[2] == given["p2"]
+    assert pressures[0] == inputs["p1"]
+    assert pressures[2] == inputs["p2"]
 
 
 def test_volumetric_coefficients_published() -> None:
-    given, expected, atol = figure("004-lamv")
-    found = [volumetric_coefficient(a, given["eps"], m) for a, m in zip(given["alpha"], given["m"], strict=True)]
-    assert found == near(expected["lam_v"], atol)
+    inputs, expected, atol = figure("004-lamv")
+    volumetric_coefficients = [
+        volumetric_coefficient(a, inputs["eps"], m) for a, m in zip(inputs["alpha"], inputs["m"], strict=True)
+    ]
+    assert volumetric_coefficients == near(expected["lam_v"], atol)
 
 
 def test_leakage_coefficients_published() -> None:
-    given, expected, atol = figure("004-leak")
+    inputs, expected, atol = figure("004-leak")
     stages = [
         CompressionStage(
             piston_rod_diameter_m=0.1, suction_temperature_K=313, relative_clearance=0.1, relative_leaks={"valves": nu}
         )
-        for nu in given["nu"]
+        for nu in inputs["nu"]
     ]
     assert leakage_coefficients(stages) == near(expected["lam_l"], atol)
 
 
 def test_delivery_coefficients_published() -> None:
-    given, expected, atol = figure("004-lamd")
-    assert [coefficients(*four).delivery for four in given["factors"]] == near(expected["lam_d"], atol)
+    inputs, expected, atol = figure("004-lamd")
+    assert [coefficients(*four).delivery for four in inputs["factors"]] == near(expected["lam_d"], atol)
 
 
 def test_condensate_coefficient_published() -> None:
-    given, expected, atol = figure("004-mu-d")
-    found = condensate_coefficients(given["phi"], [given["p1_I"], given["p1_II"]], [given["psat"]] * 2)
-    assert found == near([1.0, expected["mu_d"]], atol)
+    inputs, expected, atol = figure("004-mu-d")
+    actual_condensate_coefficients = condensate_coefficients(
+        inputs["phi"], [inputs["p1_I"], inputs["p1_II"]], [inputs["psat"]] * 2
+    )
+    assert actual_condensate_coefficients == near([1.0, expected["mu_d"]], atol)
 
 
 def test_swept_volumes_published() -> None:
-    given, expected, atol = figure("004-Vh")
-    second = stage_flow(given["Vd"], given["p"][0], given["p"][1], 313.0, 313.0, given["mu_d"] * given["mu_0"])
-    found = [
-        swept_volume(flow, given["n"], delivery)
-        for flow, delivery in ((given["Vd"], given["lam_dI"]), (second, given["lam_dII"]))
+    inputs, expected, atol = figure("004-Vh")
+    second = stage_flow(inputs["Vd"], inputs["p"][0], inputs["p"][1], 313.0, 313.0, inputs["mu_d"] * inputs["mu_0"])
+    swept_volumes = [
+        swept_volume(flow, inputs["n"], delivery)
+        for flow, delivery in ((inputs["Vd"], inputs["lam_dI"]), (second, inputs["lam_dII"]))
     ]
-    assert found == near(expected["V"], atol)
+    assert swept_volumes == near(expected["V"], atol)
 
 
 def test_areas_of_the_provisional_rod_published() -> None:
-    given, expected, atol = figure("004-areas-initial")
-    piston = Piston(count=1, acting="double", rod=given["d_rod_mm"] / 1e3, stroke=0.28)
-    sizes = [piston.size(piston.bore(area / 1e4 * piston.stroke)) for area in given["F_total_cm2"]]
-    assert [one.head_area_m2 * 1e4 for one in sizes] == near(expected["A_head_cm2"], atol)
-    assert [one.crank_area_m2 * 1e4 for one in sizes] == near(expected["A_crank_cm2"], atol)
+    inputs, expected, atol = figure("004-areas-initial")
+    piston = Piston(count=1, acting="double", rod=inputs["d_rod_mm"] / 1e3, stroke=0.28)
+    sizes = [piston.size(piston.bore(area / 1e4 * piston.stroke)) for area in inputs["F_total_cm2"]]
+    assert [size.head_area_m2 * 1e4 for size in sizes] == near(expected["A_head_cm2"], atol)
+    assert [size.crank_area_m2 * 1e4 for size in sizes] == near(expected["A_crank_cm2"], atol)
 
 
 def test_gas_forces_at_nominal_pressures_published() -> None:
-    given, expected, atol = figure("004-gas-dc-nominal")
-    areas, p = given["A"], given["p"]
+    inputs, expected, atol = figure("004-gas-dc-nominal")
+    areas, p = inputs["A"], inputs["p"]
     loads = []
     for i in range(2):
         size = CylinderSize(bore_m=0, head_area_m2=areas[2 * i], crank_area_m2=areas[2 * i + 1], swept_volume_m3=0)
         loads.append(gas_loads(p[i], p[i + 1], 101325.0, "double", size))
-    assert [one.outer.gas_force_N for one in loads] == near(expected["P_out"], atol)
-    assert [one.inner.gas_force_N for one in loads] == near(expected["P_in"], atol)
+    assert [forces.outer.gas_force_N for forces in loads] == near(expected["P_out"], atol)
+    assert [forces.inner.gas_force_N for forces in loads] == near(expected["P_in"], atol)
 
 
 def test_bores_published() -> None:
-    given, expected, atol = figure("004-bore")
-    piston = Piston(count=1, acting="double", rod=given["d"], stroke=0.28)
-    assert [piston.bore(area * piston.stroke) for area in given["F_total"]] == near(expected["D"], atol)
+    inputs, expected, atol = figure("004-bore")
+    piston = Piston(count=1, acting="double", rod=inputs["d"], stroke=0.28)
+    assert [piston.bore(area * piston.stroke) for area in inputs["F_total"]] == near(expected["D"], atol)
 
 
 def test_corrected_losses_published() -> None:
-    given, expected, atol = figure("004-loss")
-    assert [corrected_loss(one, given["Cm"], 1.0) for one in given["delta"]] == near(expected["delta_c"], atol)
+    inputs, expected, atol = figure("004-loss")
+    assert [corrected_loss(value, inputs["Cm"], 1.0) for value in inputs["delta"]] == near(expected["delta_c"], atol)
 
 
 def test_piston_speed_is_that_of_the_machine_analytic() -> None:
@@ -99,32 +103,32 @@ def test_piston_speed_is_that_of_the_machine_analytic() -> None:
 
 
 def test_pressures_in_the_cylinder_published() -> None:
-    given, expected, atol = figure("004-p-cyl")
-    inputs = zip(*(given[name] for name in ("p1", "p2", "ds", "dd")), strict=True)
-    found = [pressures_in_cylinder(*four) for four in inputs]
-    assert [p_s for p_s, _ in found] == near(expected["ps"], atol)
-    assert [p_d for _, p_d in found] == near(expected["pd"], atol)
+    actual_inputs, expected, atol = figure("004-p-cyl")
+    inputs = zip(*(actual_inputs[name] for name in ("p1", "p2", "ds", "dd")), strict=True)
+    pressures_in_cylinders = [pressures_in_cylinder(*four) for four in inputs]
+    assert [p_s for p_s, _ in pressures_in_cylinders] == near(expected["ps"], atol)
+    assert [p_d for _, p_d in pressures_in_cylinders] == near(expected["pd"], atol)
 
 
 def test_capacity_published() -> None:
-    given, expected, atol = figure("004-flow")
-    lam_v = volumetric_coefficient(given["alpha"], given["eps"], given["m"])
-    found = suction_flow(given["V_I"], given["n"], coefficients(lam_v, *given["others"]).delivery)
-    assert found == near(expected["V_d"], atol)
+    inputs, expected, atol = figure("004-flow")
+    lam_v = volumetric_coefficient(inputs["alpha"], inputs["eps"], inputs["m"])
+    flow = suction_flow(inputs["V_I"], inputs["n"], coefficients(lam_v, *inputs["others"]).delivery)
+    assert flow == near(expected["V_d"], atol)
 
 
 def test_indicated_powers_published() -> None:
-    given, expected, atol = figure("004-power")
-    found = []
-    for p_s, volume, alpha, m, ratio in zip(*(given[n] for n in ("ps", "V", "alpha", "m", "eps")), strict=True):
+    inputs, expected, atol = figure("004-power")
+    indicated_powers = []
+    for p_s, volume, alpha, m, ratio in zip(*(inputs[n] for n in ("ps", "V", "alpha", "m", "eps")), strict=True):
         lam_v = volumetric_coefficient(alpha, ratio, m)
-        found.append(indicated_power(p_s, volume, lam_v, ratio, given["k"], given["n"]) / 1e3)
-    assert found == near(expected["N_i_kW"], atol)
+        indicated_powers.append(indicated_power(p_s, volume, lam_v, ratio, inputs["k"], inputs["n"]) / 1e3)
+    assert indicated_powers == near(expected["N_i_kW"], atol)
 
 
 def test_shaft_power_analytic() -> None:
-    given, expected, atol = figure("004-shaft-power")
-    assert shaft_power(given["N_i_kW"], given["eta_m"]) == near(expected["N_z_kW"], atol)
+    inputs, expected, atol = figure("004-shaft-power")
+    assert shaft_power(inputs["N_i_kW"], inputs["eta_m"]) == near(expected["N_z_kW"], atol)
 
 
 @pytest.mark.parametrize(
@@ -154,4 +158,4 @@ def test_expansion_exponents_of_another_gas_analytic() -> None:
 
 def test_no_figure_is_left_out() -> None:
     assert len(FIGURES["checks"]) == 14
-    assert {one["label"] for one in FIGURES["checks"]} == {"published", "analytic"}
+    assert {entry["label"] for entry in FIGURES["checks"]} == {"published", "analytic"}

@@ -53,11 +53,11 @@ def test_condensation_begins_where_the_seed_says(
 ) -> None:
     """Analytic: (1-7) where phi p_s1 eps > p_s2, else 1."""
     p = 1e5
-    found = condensate_coefficients(humidity, [p, p * ratio], [p_first, p_second])[1]
+    condensate_coefficient = condensate_coefficients(humidity, [p, p * ratio], [p_first, p_second])[1]
     expected = 1.0
     if humidity * p_first * ratio > p_second:
         expected = (p - humidity * p_first) / (p * ratio - p_second) * ratio
-    assert found == pytest.approx(expected, rel=1e-12)
+    assert condensate_coefficient == pytest.approx(expected, rel=1e-12)
 
 
 def test_water_once_condensed_stays_away_analytic() -> None:

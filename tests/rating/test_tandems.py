@@ -7,18 +7,18 @@ import pytest
 from optimizer.rating.rate import rate
 from service.report.chapters.rating import rated
 from tests.rating.design import request
-from tests.rating.test_choice import OPEN, RODS, asked
+from tests.rating.test_choice import OPEN, RODS, rating_of
 from tests.rating.test_refusals import Path, refused
 
 
 def test_the_forces_of_both_add_at_each_dead_centre() -> None:
     """Analytic: sums of what each stage alone puts into a rod."""
     alone, shared = rate(request()), rate(request(tandems=[[1, 2]]))
-    (found,) = shared.tandem_loads
+    (tandem_load,) = shared.tandem_loads
     outer = [stage.actual_loads.outer.gas_force_N for stage in alone.stages]
     inner = [stage.actual_loads.inner.gas_force_N for stage in alone.stages]
-    assert (found.outer_N, found.inner_N) == (pytest.approx(sum(outer)), pytest.approx(sum(inner)))
-    assert shared.largest_rod_load_N == found.largest_N == max(abs(sum(outer)), abs(sum(inner)))
+    assert (tandem_load.outer_N, tandem_load.inner_N) == (pytest.approx(sum(outer)), pytest.approx(sum(inner)))
+    assert shared.largest_rod_load_N == tandem_load.largest_N == max(abs(sum(outer)), abs(sum(inner)))
     # sizes, powers and the loads of single pistons are what they were
     same = {"tandem_loads", "largest_rod_load_N", "warnings"}
     assert shared.model_dump(exclude=same) == alone.model_dump(exclude=same)
@@ -27,7 +27,7 @@ def test_the_forces_of_both_add_at_each_dead_centre() -> None:
 
 def test_the_rod_is_chosen_for_the_sum() -> None:
     strong = [*RODS, {"diameter_m": 0.13, "largest_force_N": 600e3}]
-    apart, shared = (asked(*OPEN, piston_rods=strong, tandems=tandems) for tandems in ([], [[1, 2]]))
+    apart, shared = (rating_of(*OPEN, piston_rods=strong, tandems=tandems) for tandems in ([], [[1, 2]]))
     assert apart.choice is not None
     assert shared.choice is not None
     assert apart.choice.piston_rod_diameters_m == (0.11, 0.11)
@@ -37,7 +37,7 @@ def test_the_rod_is_chosen_for_the_sum() -> None:
 def test_the_frame_is_warned_of_the_sum() -> None:
     single = rate(request()).largest_rod_load_N
     of_both = rate(request(tandems=[[1, 2]], rated_rod_load_N=1.2 * single))
-    assert [one.stage for one in of_both.warnings if one.code == "rod_load"] == [1, 2]
+    assert [warning.stage for warning in of_both.warnings if warning.code == "rod_load"] == [1, 2]
 
 
 def test_a_step_has_the_smaller_step_for_its_rod() -> None:
@@ -59,7 +59,7 @@ def test_a_step_has_the_smaller_step_for_its_rod() -> None:
 def test_they_stand_in_the_table_of_the_machine() -> None:
     both = request(tandems=[[1, 2]])
     chapters = list(rated(both, rate(both)))
-    (machine,) = [one for one in chapters if one.title == "Machine"]
+    (machine,) = [chapter for chapter in chapters if chapter.title == "Machine"]
     assert len(machine.blocks) == 2
 
 

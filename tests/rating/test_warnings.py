@@ -50,6 +50,6 @@ def test_what_is_out_of_range_is_said(changes: dict[str, Any], expected: list[tu
 
 def test_both_sides_of_an_extrapolated_loss_are_named() -> None:
     changes = [(f"stages/0/{side}_pressure_loss", None) for side in ("suction", "discharge")]
-    one = request(*changes, suction_pressure_Pa=1e5, discharge_pressure_Pa=6e5)
-    message = next(warning.message for warning in rate(one).warnings if warning.code == "pressure_losses")
+    body = request(*changes, suction_pressure_Pa=1e5, discharge_pressure_Pa=6e5)
+    message = next(warning.message for warning in rate(body).warnings if warning.code == "pressure_losses")
     assert "suction and discharge" in message

@@ -56,7 +56,7 @@ def figures(shaft_kN: float) -> dict[str, Real]:
     magnitude, _ = share_of_losses(*losses, np.asarray(compressor.OMEGA))
     friction = reciprocating_friction(moving, magnitude)
     forces = rod_forces(gas.total + inertia + friction, moving, layout)
-    found = {
+    pressures = {
         "x_mm": moving.displacement[0] * 1e3,
         "x_crank_mm": (0.28 - moving.displacement[0]) * 1e3,
         "c_series": moving.velocity[0],
@@ -69,13 +69,13 @@ def figures(shaft_kN: float) -> dict[str, Real]:
     }
     for k, row in enumerate(compressor.ROWS):
         for side, chamber in enumerate(("head", "crank")):
-            found[f"{row}_{chamber}_MPa"] = gas.pressure[k, side] * 1e-6
-            found[f"{row}_{chamber}_kN"] = gas.force[k, side] * 1e-3
-        found[f"{row}_gas_kN"] = gas.total[k] * 1e-3
-        found[f"{row}_inertia_kN"] = inertia[k] * 1e-3
-        found[f"{row}_inertia_exact_kN"] = compressor.MASS[k] * exact.acceleration[k] * 1e-3
-        found[f"{row}_friction_kN"] = friction[k] * 1e-3
-        found[f"{row}_sum_kN"] = (gas.total + inertia + friction)[k] * 1e-3
+            pressures[f"{row}_{chamber}_MPa"] = gas.pressure[k, side] * 1e-6
+            pressures[f"{row}_{chamber}_kN"] = gas.force[k, side] * 1e-3
+        pressures[f"{row}_gas_kN"] = gas.total[k] * 1e-3
+        pressures[f"{row}_inertia_kN"] = inertia[k] * 1e-3
+        pressures[f"{row}_inertia_exact_kN"] = compressor.MASS[k] * exact.acceleration[k] * 1e-3
+        pressures[f"{row}_friction_kN"] = friction[k] * 1e-3
+        pressures[f"{row}_sum_kN"] = (gas.total + inertia + friction)[k] * 1e-3
         for name in ("tangential", "side", "rod", "radial"):
-            found[f"{row}_{name}_kN"] = getattr(forces, name)[k] * 1e-3
-    return found
+            pressures[f"{row}_{name}_kN"] = getattr(forces, name)[k] * 1e-3
+    return pressures

@@ -25,8 +25,8 @@ def checks(topic: str) -> list[Any]:
 
 def check(name: str) -> Any:
     """Inputs and expected figures of one check."""
-    found = next(c for c in _FILE["checks"] if c["id"] == name)
-    return found["inputs"], found["expected"]
+    value = next(c for c in _FILE["checks"] if c["id"] == name)
+    return value["inputs"], value["expected"]
 
 
 def as_arrays(inputs: Any) -> Layout:

@@ -15,12 +15,12 @@ from tests.reference.seed_figures import RTOL, check, checks
 
 @pytest.mark.parametrize("case", [0, 1], ids=["published-share-0.3", "published-share-0.4"])
 def test_rod_is_shared_between_crosshead_and_pin(case: int) -> None:
-    given, expected = check("001-masses")
-    rod = ConnectingRod(length_m=0.7, mass_kg=given["m_conrod"], reciprocating_share=given["share_recip"][case])
-    moving = given["m_piston"] + given["m_rod"] + given["m_crosshead"]
+    inputs, expected = check("001-masses")
+    rod = ConnectingRod(length_m=0.7, mass_kg=inputs["m_conrod"], reciprocating_share=inputs["share_recip"][case])
+    moving = inputs["m_piston"] + inputs["m_rod"] + inputs["m_crosshead"]
     arrays = layout(
         machine(
-            throw(0, Row(axis_deg=0, reciprocating_mass_kg=moving, connecting_rod=rod), rotating_kg=given["m_crank"])
+            throw(0, Row(axis_deg=0, reciprocating_mass_kg=moving, connecting_rod=rod), rotating_kg=inputs["m_crank"])
         )
     )
     assert arrays.reciprocating.mass[0] == pytest.approx(expected["m_s"][case], rel=RTOL)
@@ -28,33 +28,35 @@ def test_rod_is_shared_between_crosshead_and_pin(case: int) -> None:
 
 
 def test_rotating_mass_of_a_v_published() -> None:
-    given, expected = check("002-V-rotmass")
-    rod = ConnectingRod(length_m=0.7, mass_kg=given["m_conrod"])  # a third reciprocates, as by default
-    rows = [Row(axis_deg=45 + 90 * i, reciprocating_mass_kg=0, connecting_rod=rod) for i in range(given["n_rods"])]
+    inputs, expected = check("002-V-rotmass")
+    rod = ConnectingRod(length_m=0.7, mass_kg=inputs["m_conrod"])  # a third reciprocates, as by default
+    rows = [Row(axis_deg=45 + 90 * i, reciprocating_mass_kg=0, connecting_rod=rod) for i in range(inputs["n_rods"])]
     # the webs' unbalance is referred to the crank radius by the client, as the contract says
-    referred = given["m_pin"] + given["m_webs"] * given["rho"] / given["r"]
-    arrays = layout(machine(throw(0, *rows, rotating_kg=referred, radius_m=given["r"])))
+    referred = inputs["m_pin"] + inputs["m_webs"] * inputs["rho"] / inputs["r"]
+    arrays = layout(machine(throw(0, *rows, rotating_kg=referred, radius_m=inputs["r"])))
     assert arrays.rotating.mass.sum() == pytest.approx(expected["m_r"], rel=RTOL)
 
 
 def test_force_of_a_counterweight_and_moment_of_a_pair_published() -> None:
-    given, expected = check("002-cw-force")
-    half = given["l_np"] / 2
+    inputs, expected = check("002-cw-force")
+    half = inputs["l_np"] / 2
     arrays = layout(machine(throw(0), webs=[web("a", half), web("b", -half)]))
-    one = given["m_np"] * given["r_np"]
-    square = given["omega"] ** 2
-    assert counterweights(arrays, np.array([one + 0j, 0])).force.peak * square == pytest.approx(expected["J"], rel=RTOL)
-    pair = counterweights(arrays, np.array([one + 0j, -one]))
+    value = inputs["m_np"] * inputs["r_np"]
+    square = inputs["omega"] ** 2
+    assert counterweights(arrays, np.array([value + 0j, 0])).force.peak * square == pytest.approx(
+        expected["J"], rel=RTOL
+    )
+    pair = counterweights(arrays, np.array([value + 0j, -value]))
     assert pair.force.peak == 0.0
     assert pair.moment.peak * square == pytest.approx(expected["M"], rel=RTOL)
 
 
 def test_counterweights_against_a_rotating_moment_published() -> None:
-    given, expected = check("002-rot-moment-cw")
-    half = given["l_np"] / 2
+    inputs, expected = check("002-rot-moment-cw")
+    half = inputs["l_np"] / 2
     throws = [
-        throw(d, z=z, rotating_kg=given["m_r"], radius_m=given["r"])
-        for d, z in ((0.0, given["l"] / 2), (180.0, -given["l"] / 2))
+        throw(d, z=z, rotating_kg=inputs["m_r"], radius_m=inputs["r"])
+        for d, z in ((0.0, inputs["l"] / 2), (180.0, -inputs["l"] / 2))
     ]
     arrays = layout(machine(*throws, webs=[web("a", half), web("b", -half)]))
     # the two masses for which force and moment vanish
@@ -62,31 +64,31 @@ def test_counterweights_against_a_rotating_moment_published() -> None:
     unbalance = np.linalg.solve(
         np.array([r.influence for r in responses], dtype=complex), -np.array([r.baseline.co for r in responses])
     )
-    np.testing.assert_allclose(np.abs(unbalance) / given["r_np"], expected["m_each"], rtol=RTOL)
+    np.testing.assert_allclose(np.abs(unbalance) / inputs["r_np"], expected["m_each"], rtol=RTOL)
     left = rotating(arrays).plus(counterweights(arrays, unbalance))
     assert left.force.peak == pytest.approx(0.0, abs=1e-12)
     assert left.moment.peak == pytest.approx(0.0, abs=1e-12)
 
 
 def test_partial_balance_of_a_horizontal_row_analytic() -> None:
-    given, expected = check("002-partial-horizontal")
-    arrays = layout(machine(throw(0, row(0, given["m_s"]), radius_m=given["r"])))
+    inputs, expected = check("002-partial-horizontal")
+    arrays = layout(machine(throw(0, row(0, inputs["m_s"]), radius_m=inputs["r"])))
     rules = force_rules(ellipse(reciprocating(arrays, 1).force), OMEGA**2)
-    assert [rule.transferred_share for rule in rules] == given["k"]
-    each = [rule.total_mass_radius_kg_m / 2 / given["r_np"] for rule in rules]
-    np.testing.assert_allclose(each, expected["m_each"], rtol=RTOL)
+    assert [rule.transferred_share for rule in rules] == inputs["k"]
+    total_mass_radii_kg_m = [rule.total_mass_radius_kg_m / 2 / inputs["r_np"] for rule in rules]
+    np.testing.assert_allclose(total_mass_radii_kg_m, expected["m_each"], rtol=RTOL)
 
 
 def test_partial_balance_of_the_moment_of_two_rows_published() -> None:
-    given, expected = check("002-two180-moment-cw")
-    half = given["l"] / 2
+    inputs, expected = check("002-two180-moment-cw")
+    half = inputs["l"] / 2
     arrays = layout(
-        machine(*[throw(d, row(90, given["m_s"]), z=z, radius_m=given["r"]) for d, z in ((0, half), (180, -half))])
+        machine(*[throw(d, row(90, inputs["m_s"]), z=z, radius_m=inputs["r"]) for d, z in ((0, half), (180, -half))])
     )
-    rules = moment_rules(ellipse(reciprocating(arrays, 1).moment), OMEGA**2, given["l_np"])
-    assert [rule.transferred_share for rule in rules] == given["k"]
-    each = [rule.total_mass_radius_kg_m / 2 / given["r_np"] for rule in rules]
-    np.testing.assert_allclose(each, expected["m_each"], rtol=RTOL)
+    rules = moment_rules(ellipse(reciprocating(arrays, 1).moment), OMEGA**2, inputs["l_np"])
+    assert [rule.transferred_share for rule in rules] == inputs["k"]
+    total_mass_radii_kg_m = [rule.total_mass_radius_kg_m / 2 / inputs["r_np"] for rule in rules]
+    np.testing.assert_allclose(total_mass_radii_kg_m, expected["m_each"], rtol=RTOL)
 
 
 def test_no_figure_is_left_out() -> None:

@@ -26,12 +26,12 @@ def _angle(inputs: Any) -> Real:
     return np.deg2rad(np.array(inputs["alpha_deg"], dtype=float, ndmin=1))
 
 
-def _one_row(inputs: Any, mass: float = 1.0) -> Layout:
+def _single_row(inputs: Any, mass: float = 1.0) -> Layout:
     return compressor.arrays(inputs.get("omega", 1.0), mass * ROW)  # radius 0.14 m and rod ratio 0.2 in all of them
 
 
 def _kinematics(inputs: Any) -> dict[str, Real]:
-    layout, angle = _one_row(inputs), _angle(inputs)
+    layout, angle = _single_row(inputs), _angle(inputs)
     series = motion(layout, angle, exact=False)
     return {
         "x": series.displacement[0],
@@ -44,9 +44,9 @@ def _kinematics(inputs: Any) -> dict[str, Real]:
 
 def _inertia(inputs: Any) -> dict[str, Real]:
     if "theta_deg" in inputs:
-        wrench = reciprocating(_one_row(inputs, inputs["m_s"]), 1).times(np.asarray(inputs["omega"] ** 2))
+        wrench = reciprocating(_single_row(inputs, inputs["m_s"]), 1).times(np.asarray(inputs["omega"] ** 2))
         return {"I_first": wrench.force.at(np.deg2rad(inputs["theta_deg"]), 1).real}
-    acceleration = motion(_one_row(inputs), _angle(inputs), exact=False).acceleration[0]
+    acceleration = motion(_single_row(inputs), _angle(inputs), exact=False).acceleration[0]
     return {f"I_{row}": mass * acceleration for row, mass in zip(compressor.ROWS, inputs["m_s"], strict=True)}
 
 
@@ -54,7 +54,7 @@ def _gas(inputs: Any) -> dict[str, Real]:
     def both(value: float) -> Real:
         return np.full((1, 2), value)
 
-    layout = _one_row(inputs)
+    layout = _single_row(inputs)
     chambers = Chambers(
         area=np.array([[inputs["A_g"], inputs["A_z"]]]),
         suction=both(inputs["ps"]),
@@ -69,17 +69,17 @@ def _gas(inputs: Any) -> dict[str, Real]:
 
 
 def _forces(inputs: Any) -> dict[str, Real]:
-    layout, angle = _one_row(inputs), _angle(inputs)
+    layout, angle = _single_row(inputs), _angle(inputs)
     moving = motion(layout, angle)
     force = np.array(inputs.get("P", inputs.get("P_sum", 1.0)), dtype=float) * np.ones((1, angle.size))
-    found = rod_forces(force, moving, layout)
+    forces = rod_forces(force, moving, layout)
     return {
-        "N": found.side[0],
-        "P_L": found.rod[0],
-        "T": found.tangential[0],
-        "R": found.radial[0],
-        "M_c": found.torque[0],
-        "M_overturn": found.overturning[0],
+        "N": forces.side[0],
+        "P_L": forces.rod[0],
+        "T": forces.tangential[0],
+        "R": forces.radial[0],
+        "M_c": forces.torque[0],
+        "M_overturn": forces.overturning[0],
         "factor": moving.tangential_factor[0],
     }
 
@@ -112,9 +112,9 @@ _TOPICS = {
 
 @pytest.mark.parametrize("check", [pytest.param(c, id=f"{c['label']}-{c['id']}") for c in _FILE["checks"]])
 def test_check(check: Any) -> None:
-    found = _TOPICS[check["topic"]](check["inputs"])
+    fields = _TOPICS[check["topic"]](check["inputs"])
     for name, expected in check["expected"].items():
-        np.testing.assert_allclose(found[name], expected, rtol=check["rtol"], atol=check["atol"] + 1e-9, err_msg=name)
+        np.testing.assert_allclose(fields[name], expected, rtol=check["rtol"], atol=check["atol"] + 1e-9, err_msg=name)
 
 
 # analytic: integrated on a grid of 0.01 degrees from the source's formulas, with its errors removed. The grid
@@ -129,18 +129,18 @@ _WHOLE = {
 def test_whole_machine(bored: bool) -> None:
     tangential, power, energy, inertia, customary, indicated = _WHOLE[bored]
     request = {"machine": compressor.machine(bored), "outputs": ["torque", "flywheel", "gas"]}
-    found = analyze(AnalyzeRequest.model_validate(request))
-    assert found.torque.mean_torque_Nm / compressor.RADIUS == pytest.approx(tangential, abs=6e-4)
-    assert found.torque.shaft_power_W == pytest.approx(power, abs=0.01)
-    assert found.torque.fluctuation_energy_J == pytest.approx(energy, rel=2e-6)
-    assert found.torque.fluctuation_energy_error_J < 1e-5 * energy
-    assert found.flywheel.inertia_J_kg_m2 == pytest.approx(inertia, rel=3e-6)
-    assert found.flywheel.inertia_MD2_kg_m2 == pytest.approx(customary, rel=3e-6)
-    assert [row.indicated_power_W for row in found.gas.rows] == pytest.approx(indicated, rel=2e-9)
-    assert found.gas.indicated_power_W == pytest.approx(found.torque.indicated_power_W, rel=1e-14)
+    answer = analyze(AnalyzeRequest.model_validate(request))
+    assert answer.torque.mean_torque_Nm / compressor.RADIUS == pytest.approx(tangential, abs=6e-4)
+    assert answer.torque.shaft_power_W == pytest.approx(power, abs=0.01)
+    assert answer.torque.fluctuation_energy_J == pytest.approx(energy, rel=2e-6)
+    assert answer.torque.fluctuation_energy_error_J < 1e-5 * energy
+    assert answer.flywheel.inertia_J_kg_m2 == pytest.approx(inertia, rel=3e-6)
+    assert answer.flywheel.inertia_MD2_kg_m2 == pytest.approx(customary, rel=3e-6)
+    assert [row.indicated_power_W for row in answer.gas.rows] == pytest.approx(indicated, rel=2e-9)
+    assert answer.gas.indicated_power_W == pytest.approx(answer.torque.indicated_power_W, rel=1e-14)
     # analytic: 0.7 and 0.3 of the losses
-    assert found.torque.rotating_friction_Nm * compressor.OMEGA == pytest.approx(22812.128, abs=6e-4)
-    assert found.torque.friction_power_W == pytest.approx(53228.298 + 22812.128, abs=1e-3)
+    assert answer.torque.rotating_friction_Nm * compressor.OMEGA == pytest.approx(22812.128, abs=6e-4)
+    assert answer.torque.friction_power_W == pytest.approx(53228.298 + 22812.128, abs=1e-3)
 
 
 def test_switching_angles() -> None:
@@ -152,8 +152,8 @@ def test_switching_angles() -> None:
 
 def test_posted_switching_angles() -> None:
     request = {"machine": compressor.machine(), "outputs": ["gas"]}
-    found = analyze(AnalyzeRequest.model_validate(request)).gas
+    gas = analyze(AnalyzeRequest.model_validate(request)).gas
     suction, discharge = switching_angles(compressor.chambers(), compressor.arrays())
-    for k, row in enumerate(found.rows):
-        opens = [(one.suction_opens_deg, one.discharge_opens_deg) for one in row.chambers]
+    for k, row in enumerate(gas.rows):
+        opens = [(chamber.suction_opens_deg, chamber.discharge_opens_deg) for chamber in row.chambers]
         np.testing.assert_allclose(opens, np.rad2deg(np.stack([suction[k], discharge[k]], axis=-1)), rtol=1e-13)

@@ -63,12 +63,12 @@ def test_posted_machine(bored: bool, end: str) -> None:
         "outputs": ["torque", "rod_loads", "gas"],
         "angles": {"step_deg": 10.0},
     }
-    found = analyze(AnalyzeRequest.model_validate(request))
+    answer = analyze(AnalyzeRequest.model_validate(request))
     near = {"rtol": 0.0, "atol": 0.051}
-    np.testing.assert_allclose(found.torque.tangential_N, 1e3 * CORRECTED[f"tangential_{end}"][:36], **near)
+    np.testing.assert_allclose(answer.torque.tangential_N, 1e3 * CORRECTED[f"tangential_{end}"][:36], **near)
     for k, row in enumerate(compressor.ROWS):
-        tangential = found.rod_loads.rows[k].tangential_N
+        tangential = answer.rod_loads.rows[k].tangential_N
         np.testing.assert_allclose(tangential, 1e3 * CORRECTED[f"{row}_tangential_{end}"][:36], **near)
         for side, chamber in enumerate(("head", "crank")):
             name = f"{row}_{chamber}_bored_kN" if bored else f"{row}_{chamber}_kN"
-            np.testing.assert_allclose(found.gas.rows[k].chambers[side].force_N, 1e3 * CORRECTED[name][:36], **near)
+            np.testing.assert_allclose(answer.gas.rows[k].chambers[side].force_N, 1e3 * CORRECTED[name][:36], **near)

@@ -18,17 +18,17 @@ AT = datetime(2026, 2, 3, 4, 5, 6, tzinfo=UTC)
 MARKUP = "<script>x</script><b>\"'&amp; #panic() $x$ *y* _z_ {{ 7*7 }}"
 
 
-def asked(example: str, **changes: Any) -> ReportRequest:
+def request_of(example: str, **changes: Any) -> ReportRequest:
     """The request of an example, with other fields."""
     return ReportRequest.model_validate({**json.loads(load(example)), **changes})
 
 
 @pytest.fixture(scope="session")
-def made() -> Callable[..., Document]:
+def composer() -> Callable[..., Document]:
     """The document on an example, at a fixed time."""
 
     def make(example: str, **changes: Any) -> Document:
-        return report(asked(example, **changes), AT)
+        return report(request_of(example, **changes), AT)
 
     return make
 

@@ -49,10 +49,10 @@ _MACHINE = ReciprocatingMachine.model_validate(
 
 def shapes(svg: str) -> Iterator[str]:
     """A line for every shape; of long lines some of their points."""
-    for one in re.sub(r"(</?(?:g|text|path|circle)\b)", r"\n\1", svg).splitlines():
+    for line in re.sub(r"(</?(?:g|text|path|circle)\b)", r"\n\1", svg).splitlines():
         # what says nothing but that something ends
-        if one.strip() and one not in ("</text>", "</g>", "</g></svg>", "</text></svg>"):
-            yield re.sub(_SAID_OF_ALL, "", re.sub(r'(?<= d=")[^"]*', _some, one)).strip()
+        if line.strip() and line not in ("</text>", "</g>", "</g></svg>", "</text></svg>"):
+            yield re.sub(_SAID_OF_ALL, "", re.sub(r'(?<= d=")[^"]*', _some, line)).strip()
 
 
 def _some(path: re.Match[str]) -> str:
@@ -83,8 +83,8 @@ def _loop(centre: complex, size: float) -> Curve:
 
 def _designs(count: int) -> Drawing:
     places = [(k * 37 % 101, k * 53 % 97) for k in range(count)]
-    mass = Column("total_mass_kg", "kg", [20.0 + one for one, _ in places])
-    return scatter(mass, Column("force_peak_N", "N", [2e4 + 300.0 * other for _, other in places]))
+    mass = Column("total_mass_kg", "kg", [20.0 + count for count, _ in places])
+    return scatter(mass, Column("force_peak_N", "N", [2e4 + 300.0 * count for _, count in places]))
 
 
 def _rung(method: str, setting: str, time_ms: float | None, error: float, best: bool) -> dict[str, Any]:

@@ -21,7 +21,7 @@ from schemas.base.model import Model
 from schemas.request.report import ReportRequest
 from service.report.blocks import Chapter, Document, Figure, Number, Paragraph, Table
 from service.report.document import document
-from tests.report_document.conftest import AT, asked
+from tests.report_document.conftest import AT, request_of
 
 TABLE = Path(__file__).with_name("follows.txt")
 #: the example whose answer has most kinds of figures, with all that it can be asked for
@@ -80,7 +80,7 @@ class Subject:
         kinds: dict[str, list[tuple[Path_, float]]] = {}
         for path, value in leaves(self.body):
             kinds.setdefault(pattern(path), []).append((path, abs(value)))
-        found = []
+        changes = []
         for name, members in kinds.items():
             if name.startswith(self.left_out):
                 continue
@@ -88,8 +88,8 @@ class Subject:
             series = self._in_series(members[-1][0])
             # what is equal but for rounding is equal on every machine
             path = [path for path, size in members if series or size >= _EQUAL * largest][-1]
-            found += [Change(path, how) for how in (("above", "below") if series else ("little",))]
-        return found
+            changes += [Change(path, how) for how in (("above", "below") if series else ("little",))]
+        return changes
 
     def _in_series(self, path: Path_) -> bool:
         """Whether a number is one of a series of ordinates; an abscissa keeps its place in the order."""
@@ -118,26 +118,26 @@ class Subject:
 
     def changed_together(self) -> tuple[dict[str, float], Any]:
         """All but series changed at once, each a little and by a share of its own: the new numbers by their names."""
-        body, found = deepcopy(self.body), dict[str, float]()
-        for number, change in enumerate(one for one in self.changes if one.how == "little"):
+        body, numbers = deepcopy(self.body), dict[str, float]()
+        for number, change in enumerate(variant for variant in self.changes if variant.how == "little"):
             *above, key = change.path
             for length, step in enumerate(above):
                 home = _at(body, tuple(above[:length]))
                 home[step] = list(home[step]) if isinstance(home[step], tuple) else home[step]
             home = _at(body, tuple(above))
-            home[key] = found[change.name] = (home[key] or 1.0) * (1.001 + 1e-5 * number)
-        return found, type(self.about).model_validate(body)
+            home[key] = numbers[change.name] = (home[key] or 1.0) * (1.001 + 1e-5 * number)
+        return numbers, type(self.about).model_validate(body)
 
     def follows(self, change: Change) -> list[str]:
         """Places that change with a leaf: `=` those that show it itself, `~` those that follow from it."""
-        old, new, other = self.changed(change)
-        before, after = self.unchanged, places(self.rendered(other))
-        found = [place for place in {**before, **after} if before.get(place) != after.get(place)]
-        shown = [
+        old, new, value = self.changed(change)
+        before, after = self.unchanged, places(self.rendered(value))
+        actual_places = [place for place in {**before, **after} if before.get(place) != after.get(place)]
+        texts = [
             ("= " if after.get(place) == new and (change.how != "little" or before.get(place) == old) else "~ ") + place
-            for place in found
+            for place in actual_places
         ]
-        return shown or [NOWHERE]
+        return texts or [NOWHERE]
 
     def written(self) -> Iterator[str]:
         """The table: a line for every kind of leaf, the places below it."""
@@ -149,7 +149,7 @@ class Subject:
 def request() -> ReportRequest:
     """What the document is asked for."""
     outputs = [name for name in get_args(OutputName) if name != "pin_loads"]
-    return asked(EXAMPLE, outputs=outputs, angles={"step_deg": 10})
+    return request_of(EXAMPLE, outputs=outputs, angles={"step_deg": 10})
 
 
 @cache
@@ -158,15 +158,15 @@ def answer() -> OptimizeAnswer:
     return optimize(request().alone)
 
 
-def rendered(found: OptimizeAnswer) -> Document:
+def rendered(optimum: OptimizeAnswer) -> Document:
     """The report on an answer, without versions and check."""
-    return document(request(), found, (), AT)
+    return document(request(), optimum, (), AT)
 
 
 @cache
 def subject() -> Subject:
     """The answer with its report."""
-    return Subject(answer(), lambda found: rendered(found).chapters)
+    return Subject(answer(), lambda value: rendered(value).chapters)
 
 
 def leaves(node: Any, path: Path_ = ()) -> Iterator[tuple[Path_, float]]:
@@ -189,15 +189,15 @@ def _at(node: Any, path: Path_) -> Any:
 
 def places(chapters: Iterable[Chapter]) -> Places:
     """Every number, text and drawing of a document, by chapter, table, row and column."""
-    found: dict[str, object] = {}
+    fields: dict[str, object] = {}
     for chapter in chapters:
         for block in chapter.blocks:
             for name, value in _of_block(block):
                 label = f"{chapter.title} | {name}"
-                while label in found:
+                while label in fields:
                     label += "'"
-                found[label] = value
-    return found
+                fields[label] = value
+    return fields
 
 
 def _of_block(block: object) -> Iterator[tuple[str, object]]:
@@ -222,14 +222,14 @@ def _of_block(block: object) -> Iterator[tuple[str, object]]:
 def _columns(block: Table) -> list[str]:
     """Titles of the columns; one that comes again is named with the one that it follows."""
     titles = [column.title for column in block.columns]
-    found, last = [], ""
+    texts, last = [], ""
     for title in titles:
         if titles.count(title) > 1 and title:
-            found.append(f"{last}: {title}")
+            texts.append(f"{last}: {title}")
         else:
             last = title
-            found.append(title)
-    return found
+            texts.append(title)
+    return texts
 
 
 def _first(text: str) -> str:

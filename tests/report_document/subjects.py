@@ -170,7 +170,7 @@ def _answered(name: str, body: Any) -> Subject:
     computation = COMPUTATIONS[name]
     assert computation.chapters is not None
     request, chapters = computation.request_model.model_validate(body), resolve_name(computation.chapters)
-    return Subject(computation.function(request), lambda found: chapters(request, found), ("effects.", "timing."))
+    return Subject(computation.function(request), lambda value: chapters(request, value), ("effects.", "timing."))
 
 
 def _match() -> Subject:
@@ -179,15 +179,15 @@ def _match() -> Subject:
     return _answered("match", {"machine": machine(cranks, [web("a", 0.15, 4.0)]), "parts": parts})
 
 
-def _asked(body: Any) -> Subject:
+def _optimum_subject(body: Any) -> Subject:
     # what weighs loads or the roll moment calls for more of a machine
     silent = ("accuracy.", "angles.", *(f"objective.{name}_weight" for name in ("bearing", "bending", "roll")))
-    return Subject(OptimizeRequest.model_validate(body), lambda found: [inputs(found, 0.07)], silent)
+    return Subject(OptimizeRequest.model_validate(body), lambda value: [inputs(value, 0.07)], silent)
 
 
 def _accuracy(**changes: Any) -> Subject:
     answer = AccuracyAnswer.model_validate({**_MEASURED, **changes})
-    return Subject(answer, lambda found: ladders(None, found))  # type: ignore[arg-type]
+    return Subject(answer, lambda value: ladders(None, value))  # type: ignore[arg-type]
 
 
 def accuracy(*rungs: dict[str, Any]) -> AccuracyAnswer:
@@ -196,14 +196,14 @@ def accuracy(*rungs: dict[str, Any]) -> AccuracyAnswer:
 
 
 def _counts() -> Subject:
-    return Subject(CountFront.model_validate(_COUNTS), lambda found: [Chapter("Numbers", (count_table(found),))])
+    return Subject(CountFront.model_validate(_COUNTS), lambda value: [Chapter("Numbers", (count_table(value),))])
 
 
 _MADE: dict[str, Callable[[], Subject]] = {
     "match": _match,
-    "inputs": lambda: _asked({"machine": _WHOLE, "objective": _OBJECTIVE}),
-    "inputs of balance shafts": lambda: _asked({"machine": {**_SMALL, "balance_shafts": _SHAFTS}}),
-    "inputs of a scroll": lambda: _asked(bodies("")["scroll-oldham"]),
+    "inputs": lambda: _optimum_subject({"machine": _WHOLE, "objective": _OBJECTIVE}),
+    "inputs of balance shafts": lambda: _optimum_subject({"machine": {**_SMALL, "balance_shafts": _SHAFTS}}),
+    "inputs of a scroll": lambda: _optimum_subject(bodies("")["scroll-oldham"]),
     "analyze": lambda: _answered("analyze", {"machine": _SMALL, "counterweights": _WEIGHTS}),
     "pareto": lambda: _answered("pareto", {"machine": _SMALL, "points": 3}),
     "round": lambda: _answered("round", {"request": {"machine": _SMALL}, "mass_step_kg": 0.5, "angle_step_deg": 15}),
@@ -231,7 +231,7 @@ NAMES = tuple(_MADE)
 
 
 @cache
-def made(name: str) -> Subject:
+def subject_of(name: str) -> Subject:
     """One of them."""
     return _MADE[name]()
 
@@ -239,7 +239,7 @@ def made(name: str) -> Subject:
 def written(names: Iterable[str] = NAMES) -> Iterable[str]:
     """The table: of every subject those of its leaves that have places, with these."""
     for name in names:
-        yield from (f"{name}: {entry}" for entry in made(name).written() if not entry.endswith(f" {NOWHERE}\n"))
+        yield from (f"{name}: {entry}" for entry in subject_of(name).written() if not entry.endswith(f" {NOWHERE}\n"))
 
 
 if __name__ == "__main__":

@@ -43,42 +43,48 @@ def request(**rest: Any) -> dict[str, Any]:
 
 def test_the_report_tells_what_the_mechanics_find_of_what_is_fitted() -> None:
     """Independent: the same counterweights given to an analysis."""
-    asked = ReportRequest.model_validate(request())
+    body = ReportRequest.model_validate(request())
     alone = analyze(AnalyzeRequest.model_validate({"machine": request()["machine"], "counterweights": FITTED}))
-    best = optimize(asked.alone)
+    best = optimize(body.alone)
     assert alone.residual is not None
     assert alone.residual.after is not None
     assert best.residual.after is not None
-    made = report(asked, AT)
-    found = {block.title: block for chapter in made.chapters for block in chapter.blocks if isinstance(block, Table)}
-    decision = found["Decision"]
+    document = report(body, AT)
+    blocks = {
+        block.title: block for chapter in document.chapters for block in chapter.blocks if isinstance(block, Table)
+    }
+    decision = blocks["Decision"]
     assert [column.title for column in decision.columns][2:5] == ["optimum", "as built", "difference"]
     values = [cell.value for cell in decision.rows[0] if isinstance(cell, Number)]
     optimum, built = best.residual.after.force.peak_N, alone.residual.after.force.peak_N
     assert values[1:4] == [optimum, built, built - optimum]
-    assert found["Optimum and as built"].rows[3][0] == "2b"
-    words = " ".join(block.text for block in made.chapters[0].blocks if isinstance(block, Paragraph))
+    assert blocks["Optimum and as built"].rows[3][0] == "2b"
+    words = " ".join(block.text for block in document.chapters[0].blocks if isinstance(block, Paragraph))
     assert "nothing is certified of it" in words
 
 
 def test_differences_and_tolerance() -> None:
-    asked = OptimizeRequest.model_validate(request())
-    answer = optimize(asked)
-    found = as_built.required(asked, answer)
-    lines = {line[0]: dict(zip(as_built.HEADS, line, strict=True)) for line in as_built.lines(found)[1:]}
+    body = OptimizeRequest.model_validate(request())
+    answer = optimize(body)
+    actual_as_built = as_built.required(body, answer)
+    lines = {line[0]: dict(zip(as_built.HEADS, line, strict=True)) for line in as_built.lines(actual_as_built)[1:]}
     # analytic: the shorter way round, and a web that carries nothing
     assert lines["2a"]["difference, deg"] == pytest.approx(-1.0)
     assert lines["2b"]["as built, kg"] == 0.0
     assert lines["2b"]["as built, deg"] is None
     # independent: all angles off by the tolerance cost the allowance at most
-    bears = found.tolerance
+    bears = actual_as_built.tolerance
     assert bears.angle_deg is not None
     assert answer.certificate is not None
     weight = 1.0 / 0.56
     for side in (-1.0, 1.0):
         turned = [
-            {"web": one.web, "mass_kg": one.mass_kg, "angle_deg": one.angle_deg + side * bears.angle_deg}
-            for one in answer.counterweights
+            {
+                "web": counterweight.web,
+                "mass_kg": counterweight.mass_kg,
+                "angle_deg": counterweight.angle_deg + side * bears.angle_deg,
+            }
+            for counterweight in answer.counterweights
         ]
         off = analyze(AnalyzeRequest.model_validate({"machine": request()["machine"], "counterweights": turned}))
         assert off.residual is not None
@@ -89,17 +95,17 @@ def test_differences_and_tolerance() -> None:
 
 
 def test_the_workbook_and_the_table_hold_numbers_and_are_read_back() -> None:
-    asked = OptimizeRequest.model_validate(request())
-    sheets = workbook_sheets(answered(asked, optimize(asked)))
-    heads, *lines = tables.built(asked)
+    body = OptimizeRequest.model_validate(request())
+    sheets = workbook_sheets(answered(body, optimize(body)))
+    heads, *lines = tables.built(body)
     assert sheets[BUILT][0] == heads
     for cells, line in zip(sheets[BUILT][1:5], lines, strict=True):
         # a cell has 16 digits
         assert [*cells, *(None,) * (len(line) - len(cells))] == [
-            pytest.approx(one, rel=1e-14) if isinstance(one, float) else one for one in line
+            pytest.approx(text, rel=1e-14) if isinstance(text, float) else text for text in line
         ]
     assert tuple(sheets[BUILT][6]) == as_built.RESIDUAL_HEADS
-    assert OptimizeRequest.model_validate(read(sheets).body) == asked
+    assert OptimizeRequest.model_validate(read(sheets).body) == body
     with pytest.raises(OutOfRange) as refused:
         tables.built(OptimizeRequest.model_validate(request(fitted=[])))
     assert refused.value.problems[0].path == ("fitted",)
@@ -109,21 +115,23 @@ def test_drawings_are_of_what_is_built() -> None:
     body = json.loads(Path("examples/drawings/2d12-plates.json").read_text())
     best = drawings(DrawingsRequest.model_validate({**body, "counterweights": None}))
     assert best.built is None
-    one = best.parts[0].places[0]
-    fitted = [{"web": one.web, "mass_kg": 0.9 * one.mass_kg, "angle_deg": one.angle_deg + 2.0}]
+    counterweight = best.parts[0].places[0]
+    fitted = [
+        {"web": counterweight.web, "mass_kg": 0.9 * counterweight.mass_kg, "angle_deg": counterweight.angle_deg + 2.0}
+    ]
     drawn = drawings(DrawingsRequest.model_validate({**body, "counterweights": None, "fitted": fitted}))
     (part,) = drawn.parts
     (place,) = part.places
-    assert place.mass_kg == pytest.approx(0.9 * one.mass_kg)
+    assert place.mass_kg == pytest.approx(0.9 * counterweight.mass_kg)
     assert place.shape is not None
     assert part.half_angle == radians(place.shape.half_angle_deg)
     (row,) = csv.DictReader(io.StringIO(as_csv(drawn).decode()))
-    assert float(row["optimum, kg"]) == one.mass_kg
-    assert float(row["difference, kg"]) == place.mass_kg - one.mass_kg
+    assert float(row["optimum, kg"]) == counterweight.mass_kg
+    assert float(row["difference, kg"]) == place.mass_kg - counterweight.mass_kg
     assert float(row["difference, deg"]) == pytest.approx(2.0)
-    said = sheet(part, drawn.built).svg()
-    assert f"as built {place.mass_kg:.6g} kg; optimum {one.mass_kg:.6g} kg" in said
-    assert "tolerance ±" in said
+    svg = sheet(part, drawn.built).svg()
+    assert f"as built {place.mass_kg:.6g} kg; optimum {counterweight.mass_kg:.6g} kg" in svg
+    assert "tolerance ±" in svg
 
 
 @pytest.mark.parametrize("picture", [pictures.front, pictures.side, pictures.force, pictures.moment])

@@ -12,7 +12,7 @@ from schemas.answer.outputs import OrdersComparison
 from service.report.blocks import Number, Paragraph, Table, angle, extremes, figure_beside, turns_of
 from service.report.chapters.orders import orders
 from service.report.chapters.reproduction import _lines
-from tests.report_document.conftest import asked
+from tests.report_document.conftest import request_of
 
 _VALUES = st.recursive(
     st.none() | st.booleans() | st.integers(-999, 999) | st.text("abcdefgh", max_size=30),
@@ -38,9 +38,9 @@ def test_a_listing_is_the_json_that_it_lists(value: Any, room: int) -> None:
 
 def _comparison(force: float, moment: float) -> OrdersComparison:
     """Two orders of the 2D12; of the second the peaks, and of the first the scales, are put down by hand."""
-    found = optimize(asked("2d12", outputs=["orders"]).alone).orders
-    assert found is not None
-    first, second = found.before[:2]
+    comparison = optimize(request_of("2d12", outputs=["orders"]).alone).orders
+    assert comparison is not None
+    first, second = comparison.before[:2]
 
     def with_peaks(order: Any, of_force: float, of_moment: float) -> Any:
         changes = {
@@ -49,7 +49,7 @@ def _comparison(force: float, moment: float) -> OrdersComparison:
         }
         return order.model_copy(update=changes)
 
-    return found.model_copy(
+    return comparison.model_copy(
         update={"before": (with_peaks(first, 1e6, 1.0), with_peaks(second, force, moment)), "after": None}
     )
 
@@ -91,10 +91,10 @@ def test_angles_are_told_to_a_ten_thousandth(value: float | None, text: str) -> 
 
 
 def test_extremes_stand_where_they_are_first() -> None:
-    found = extremes(
+    table = extremes(
         "", [0.0, 10.0, 20.0, 30.0], [("a", [1.0, 5.0, None, 5.0]), ("b", [None] * 4), ("c", [2.0, 2.0, 1.0, 1.0])]
     )
-    rows = [[cell.value if isinstance(cell, Number) else cell for cell in row] for row in found.rows]
+    rows = [[cell.value if isinstance(cell, Number) else cell for cell in row] for row in table.rows]
     assert rows == [["a", 5.0, 10.0, 1.0, 0.0], ["b", *4 * ["–"]], ["c", 2.0, 0.0, 1.0, 20.0]]
 
 

@@ -20,20 +20,20 @@ from tests.report_document.conftest import AT
 
 
 @pytest.fixture(scope="module")
-def told() -> tuple[ReportRequest, Document]:
+def request_and_report() -> tuple[ReportRequest, Document]:
     request = ReportRequest.model_validate(bodies("")["two-rows-90"])
     return request, report(request, AT)
 
 
-def _line(found: Document) -> str:
-    (certificate,) = [chapter for chapter in found.chapters if chapter.title == "Certificate"]
+def _line(record: Document) -> str:
+    (certificate,) = [chapter for chapter in record.chapters if chapter.title == "Certificate"]
     last = certificate.blocks[-1]
     assert isinstance(last, Paragraph)
     return last.text
 
 
-def _digests(found: Document) -> dict[str, str]:
-    rows = [row for block in found.chapters[-1].blocks if isinstance(block, Table) for row in block.rows]
+def _digests(record: Document) -> dict[str, str]:
+    rows = [row for block in record.chapters[-1].blocks if isinstance(block, Table) for row in block.rows]
     return {str(row[0]): str(row[1]) for row in rows if str(row[0]).startswith("digest")}
 
 
@@ -42,35 +42,37 @@ def _digest(value: Any) -> str:
     return hashlib.sha256(json.dumps(value, sort_keys=True, separators=(",", ":")).encode()).hexdigest()
 
 
-def test_the_digests_are_those_of_what_is_posted_and_answered(told: tuple[ReportRequest, Document]) -> None:
+def test_the_digests_are_those_of_what_is_posted_and_answered(
+    request_and_report: tuple[ReportRequest, Document],
+) -> None:
     """Independent: the answer of /v1/optimize to the outputs that the appendix names, computed once more."""
-    request, found = told
-    (words,) = [b.text for b in found.chapters[-1].blocks if isinstance(b, Paragraph) and "SHA-256" in b.text]
+    request, record = request_and_report
+    (words,) = [b.text for b in record.chapters[-1].blocks if isinstance(b, Paragraph) and "SHA-256" in b.text]
     outputs = words.rpartition("outputs ")[2].rstrip(".").split(", ")
     again = optimize(OptimizeRequest.model_validate({**bodies("")["two-rows-90"], "outputs": outputs}))
     answer = json.loads(again.model_dump_json())
     del answer["timing"], answer["effects"]
-    digests = _digests(found)
+    digests = _digests(record)
     assert digests == {"digest of the request": _digest(body(request)), "digest of the answer": _digest(answer)}
-    short = [one[:SHORT] for one in digests.values()]
-    assert _line(found).endswith(f"Digests: request {short[0]}, answer {short[1]}.")
+    short = [digest[:SHORT] for digest in digests.values()]
+    assert _line(record).endswith(f"Digests: request {short[0]}, answer {short[1]}.")
 
 
-def test_the_line_says_what_the_checker_finds(told: tuple[ReportRequest, Document]) -> None:
+def test_the_line_says_what_the_checker_finds(request_and_report: tuple[ReportRequest, Document]) -> None:
     """Independent: the checker, asked as a stranger asks it."""
-    request, found = told
-    asked = {**json.loads(request.alone.model_dump_json()), "outputs": ["residual", "stages", "foundation_loads"]}
-    answer = json.loads(optimize(OptimizeRequest.model_validate(asked)).model_dump_json())
-    outcome = checker().verify(asked, answer)
+    request, record = request_and_report
+    file = {**json.loads(request.alone.model_dump_json()), "outputs": ["residual", "stages", "foundation_loads"]}
+    answer = json.loads(optimize(OptimizeRequest.model_validate(file)).model_dump_json())
+    outcome = checker().verify(file, answer)
     assert outcome["verdict"] == "held"
     count = f"{outcome['checked']} of {outcome['leaves']} claims"
-    assert f" {count}" in _line(found)
-    assert "Not covered" not in _line(found)
-    assert count in html(found).decode()
+    assert f" {count}" in _line(record)
+    assert "Not covered" not in _line(record)
+    assert count in html(record).decode()
 
 
-def test_the_line_follows_the_answer(told: tuple[ReportRequest, Document]) -> None:
-    request, _ = told
+def test_the_line_follows_the_answer(request_and_report: tuple[ReportRequest, Document]) -> None:
+    request, _ = request_and_report
     plain = request.alone
     answer = optimize(plain)
     held = document(request, answer, (), AT, check(plain, answer))
@@ -86,14 +88,14 @@ def test_the_line_follows_the_answer(told: tuple[ReportRequest, Document]) -> No
 
 
 def test_what_holds_too_much_is_said_not_to_be_checked() -> None:
-    said = sentence(Check(None, "b" * 64, ("residual",)), "a" * 64)
-    assert (said.tone, "nothing was checked" in said.text) == ("warning", True)
-    assert said.text.endswith(f"Digests: request {'a' * SHORT}, answer {'b' * SHORT}.")
+    paragraph = sentence(Check(None, "b" * 64, ("residual",)), "a" * 64)
+    assert (paragraph.tone, "nothing was checked" in paragraph.text) == ("warning", True)
+    assert paragraph.text.endswith(f"Digests: request {'a' * SHORT}, answer {'b' * SHORT}.")
 
 
 def test_what_is_not_covered_is_named() -> None:
     """The bound of a choice from a catalogue: no tree is searched again."""
     request = OptimizeRequest.model_validate(bodies("")["catalogue-twin"])
-    said = sentence(check(request, optimize(request)), "a" * 64)
-    assert "nothing is broken. Not covered: " in said.text
-    assert "bound" in said.text
+    paragraph = sentence(check(request, optimize(request)), "a" * 64)
+    assert "nothing is broken. Not covered: " in paragraph.text
+    assert "bound" in paragraph.text

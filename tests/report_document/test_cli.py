@@ -24,8 +24,8 @@ def run(*words: object) -> Result:
 
 @pytest.mark.parametrize(("name", "begins"), [("report.html", b"<!DOCTYPE html>"), ("report.PDF", b"%PDF-")])
 def test_the_document_is_as_its_name_says(machine: Path, tmp_path: Path, name: str, begins: bytes) -> None:
-    done = run(machine, "-o", tmp_path / name)
-    assert done.exit_code == 0, done.output
+    process = run(machine, "-o", tmp_path / name)
+    assert process.exit_code == 0, process.output
     assert (tmp_path / name).read_bytes().startswith(begins)
 
 
@@ -42,20 +42,20 @@ def test_an_infeasible_machine_is_reported_and_told_by_the_exit_code(machine: Pa
 
 
 @pytest.mark.parametrize(
-    ("to", "said"),
+    ("to", "text"),
     [("report.doc", "must end in .html or .pdf"), ("missing/report.pdf", "cannot write")],
 )
-def test_a_document_that_cannot_be_written(machine: Path, tmp_path: Path, to: str, said: str) -> None:
-    done = run(machine, "-o", tmp_path / to)
-    assert done.exit_code == 2
-    assert said in done.output
+def test_a_document_that_cannot_be_written(machine: Path, tmp_path: Path, to: str, text: str) -> None:
+    process = run(machine, "-o", tmp_path / to)
+    assert process.exit_code == 2
+    assert text in process.output
 
 
 def test_what_the_machine_lacks(machine: Path, tmp_path: Path) -> None:
     body: dict[str, Any] = json.loads(machine.read_bytes())
     del body["machine"]["flywheel"]
     machine.write_text(json.dumps({**body, "outputs": ["flywheel"]}))
-    done = run(machine, "-o", tmp_path / "report.pdf")
-    assert done.exit_code == 2
-    assert "/machine/flywheel" in done.output
+    process = run(machine, "-o", tmp_path / "report.pdf")
+    assert process.exit_code == 2
+    assert "/machine/flywheel" in process.output
     assert not (tmp_path / "report.pdf").exists()

@@ -22,22 +22,22 @@ from service.report.chapters.verdict import result
 from service.report.document import document
 from service.report.formula import formula
 from service.report.terminal import terminal
-from tests.report_document.conftest import AT, asked
+from tests.report_document.conftest import AT, request_of
 
 Make = Callable[..., Document]
 
 
-def chapter(made: Document, title: str) -> Chapter:
-    return next(one for one in made.chapters if one.title == title)
+def chapter(record: Document, title: str) -> Chapter:
+    return next(section for section in record.chapters if section.title == title)
 
 
-def tables(made: Document, title: str) -> Iterator[Table]:
-    return (block for block in chapter(made, title).blocks if isinstance(block, Table))
+def tables(record: Document, title: str) -> Iterator[Table]:
+    return (block for block in chapter(record, title).blocks if isinstance(block, Table))
 
 
-def words(made: Document, title: str) -> str:
+def words(record: Document, title: str) -> str:
     """Without what sets thousands apart."""
-    text = " ".join(block.text for block in chapter(made, title).blocks if isinstance(block, Paragraph))
+    text = " ".join(block.text for block in chapter(record, title).blocks if isinstance(block, Paragraph))
     return text.replace(NARROW, "")
 
 
@@ -49,34 +49,37 @@ def values(table: Table) -> list[tuple[object, ...]]:
     return [tuple(map(value, row)) for row in table.rows]
 
 
-def test_the_counterweights_and_the_prices_of_their_limits(made: Make) -> None:
-    answer = optimize(asked("2d12"))
-    (weights,) = tables(made("2d12"), "Counterweights")
-    (prices,) = tables(made("2d12"), "Prices of the limits")
+def test_the_counterweights_and_the_prices_of_their_limits(composer: Make) -> None:
+    answer = optimize(request_of("2d12"))
+    (weights,) = tables(composer("2d12"), "Counterweights")
+    (prices,) = tables(composer("2d12"), "Prices of the limits")
     assert [row[:3] for row in values(weights)] == [
-        (one.web, one.mass_kg, one.angle_deg) for one in answer.counterweights
+        (counterweight.web, counterweight.mass_kg, counterweight.angle_deg) for counterweight in answer.counterweights
     ]
     assert [row[-1] for row in weights.rows] == [
-        "largest mass" if one.active_limits else "none" for one in answer.counterweights
+        "largest mass" if counterweight.active_limits else "none" for counterweight in answer.counterweights
     ]
-    assert values(prices) == [("largest mass", one.web, one.value, one.unit) for one in answer.shadow_prices]
+    assert values(prices) == [
+        ("largest mass", shadow_price.web, shadow_price.value, shadow_price.unit)
+        for shadow_price in answer.shadow_prices
+    ]
     assert len(prices.rows) == 3
 
 
-def test_a_web_without_a_counterweight_says_none(made: Make) -> None:
-    machine = asked("2d12").machine.model_dump(mode="json", exclude_none=True)
+def test_a_web_without_a_counterweight_says_none(composer: Make) -> None:
+    machine = request_of("2d12").machine.model_dump(mode="json", exclude_none=True)
     machine["webs"][1]["max_mass_kg"] = 0
-    (weights,) = tables(made("2d12", machine=machine), "Counterweights")
+    (weights,) = tables(composer("2d12", machine=machine), "Counterweights")
     assert values(weights)[1] == ("1b", "none", *5 * ("–",), "largest mass")
 
 
-def test_a_machine_that_no_limit_holds_up(made: Make) -> None:
-    assert "all shadow prices are 0" in words(made("scroll-three-pins"), "Certificate")
+def test_a_machine_that_no_limit_holds_up(composer: Make) -> None:
+    assert "all shadow prices are 0" in words(composer("scroll-three-pins"), "Certificate")
 
 
-def test_before_and_after(made: Make) -> None:
-    answer = optimize(asked("v60"))
-    table, orders = tables(made("v60"), "First order before and after")
+def test_before_and_after(composer: Make) -> None:
+    answer = optimize(request_of("v60"))
+    table, orders = tables(composer("v60"), "First order before and after")
     after = answer.residual.after
     assert after is not None
     assert values(table)[0] == (
@@ -88,53 +91,53 @@ def test_before_and_after(made: Make) -> None:
     assert values(orders)[1][1:3] == (second.force.peak_N, second.force.peak_N)
 
 
-def test_the_eight_stages_stand_in_it_without_being_asked_for(made: Make) -> None:
-    stages = optimize(asked("2d12", outputs=["stages"])).stages
+def test_the_eight_stages_stand_in_it_without_being_asked_for(composer: Make) -> None:
+    stages = optimize(request_of("2d12", outputs=["stages"])).stages
     assert stages is not None
-    shown = values(next(tables(made("2d12"), "The eight balancing stages")))
-    assert [row[0] for row in shown] == ["I", "II", "III", "IV", "V", "VI", "VII", "VIII"]
-    assert [row[2:4] for row in shown] == [(one.value, one.remaining) for one in stages]
+    entries = values(next(tables(composer("2d12"), "The eight balancing stages")))
+    assert [row[0] for row in entries] == ["I", "II", "III", "IV", "V", "VI", "VII", "VIII"]
+    assert [row[2:4] for row in entries] == [(stage.value, stage.remaining) for stage in stages]
 
 
-def test_stages_that_cannot_be_computed_say_what_is_missing(made: Make) -> None:
-    request = asked("single-vertical").model_dump(mode="json")
+def test_stages_that_cannot_be_computed_say_what_is_missing(composer: Make) -> None:
+    request = request_of("single-vertical").model_dump(mode="json")
     request["machine"]["throws"][0]["rows"][0]["connecting_rod"] = None
-    said = words(made("single-vertical", **request), "The eight balancing stages")
-    assert "/machine/throws/0/rows/0/connecting_rod" in said
+    actual_words = words(composer("single-vertical", **request), "The eight balancing stages")
+    assert "/machine/throws/0/rows/0/connecting_rod" in actual_words
 
 
-def test_the_verdict_on_an_optimum(made: Make) -> None:
-    answer = optimize(asked("2d12"))
+def test_the_verdict_on_an_optimum(composer: Make) -> None:
+    answer = optimize(request_of("2d12"))
     assert answer.certificate is not None
-    found = made("2d12")
-    assert found.status == "optimal"
-    assert f"bring the objective below {answer.certificate.lower_bound:.6g}" in words(found, "Result")
-    (figures,) = tables(found, "Certificate")
+    record = composer("2d12")
+    assert record.status == "optimal"
+    assert f"bring the objective below {answer.certificate.lower_bound:.6g}" in words(record, "Result")
+    (figures,) = tables(record, "Certificate")
     assert ("lower bound", answer.certificate.lower_bound) in values(figures)
 
 
-def test_the_verdict_on_ceilings_that_cannot_be_met(made: Make) -> None:
-    found = made("2d12", objective={"force_ceiling_N": 4000})
-    assert found.status == "infeasible"
-    assert "the ceiling of the force cannot be met" in words(found, "Result")
-    assert "best compromise, not an answer" in words(found, "Counterweights")
-    assert "never below 5003.07 N" in words(found, "Certificate")
+def test_the_verdict_on_ceilings_that_cannot_be_met(composer: Make) -> None:
+    record = composer("2d12", objective={"force_ceiling_N": 4000})
+    assert record.status == "infeasible"
+    assert "the ceiling of the force cannot be met" in words(record, "Result")
+    assert "best compromise, not an answer" in words(record, "Counterweights")
+    assert "never below 5003.07 N" in words(record, "Certificate")
 
 
 def test_the_verdict_on_less_accuracy_than_was_asked_for() -> None:
-    request = asked("2d12")
+    request = request_of("2d12")
     answer = optimize(request).model_copy(update={"status": "inaccurate"})
-    said = document(request, answer, (), AT)
-    assert said.status == "inaccurate"
-    assert "Inaccurate: the counterweights below keep the limits" in words(said, "Result")
+    record = document(request, answer, (), AT)
+    assert record.status == "inaccurate"
+    assert "Inaccurate: the counterweights below keep the limits" in words(record, "Result")
 
 
-def test_a_machine_without_a_place_for_counterweights(made: Make) -> None:
-    request = asked("2d12").model_dump(mode="json")
+def test_a_machine_without_a_place_for_counterweights(composer: Make) -> None:
+    request = request_of("2d12").model_dump(mode="json")
     request["machine"]["webs"] = []
-    found = made("2d12", **request)
-    assert "no web for counterweights" in words(found, "Result")
-    assert words(found, "Counterweights").startswith("There are none.")
+    record = composer("2d12", **request)
+    assert "no web for counterweights" in words(record, "Result")
+    assert words(record, "Counterweights").startswith("There are none.")
 
 
 @pytest.mark.parametrize(
@@ -152,40 +155,40 @@ def test_a_machine_without_a_place_for_counterweights(made: Make) -> None:
         ("orders", "Orders", 0),
     ],
 )
-def test_every_output_asked_for_has_its_chapter(made: Make, output: str, title: str, figures: int) -> None:
-    found = made("2d12", outputs=[output])
-    assert sum(isinstance(block, Figure) for block in chapter(found, title).blocks) == figures
-    used, _, idle = words(found, "Which effects were simulated").partition("Not simulated: ")
+def test_every_output_asked_for_has_its_chapter(composer: Make, output: str, title: str, figures: int) -> None:
+    record = composer("2d12", outputs=[output])
+    assert sum(isinstance(block, Figure) for block in chapter(record, title).blocks) == figures
+    used, _, idle = words(record, "Which effects were simulated").partition("Not simulated: ")
     assert "rotating inertia" in used
     assert "pin loads" not in used
     assert "pin loads" in idle
     # only what was asked for
-    assert ("Torque" in [one.title for one in found.chapters]) == (output == "torque")
+    assert ("Torque" in [section.title for section in record.chapters]) == (output == "torque")
 
 
-def test_pin_loads_of_a_scroll(made: Make) -> None:
-    facts, pins, *_ = tables(made("scroll-three-pins", outputs=["pin_loads"]), "Pin loads")
+def test_pin_loads_of_a_scroll(composer: Make) -> None:
+    facts, pins, *_ = tables(composer("scroll-three-pins", outputs=["pin_loads"]), "Pin loads")
     # analytic: 2 T/(n R) with 12.5 N m, 3 pins on 48 mm
     assert value(facts.rows[0][1]) == pytest.approx(2 * 12.5 / (3 * 0.048))
     assert len(pins.rows) == 3
 
 
 def test_the_request_in_the_appendix_is_the_request() -> None:
-    request = asked("v8-cross-plane", outputs=["orders"])
-    shown = request_json(request)
-    assert json.loads(shown) == request.alone.model_dump(mode="json")
-    assert max(map(len, shown.splitlines())) <= 132 + len(request.machine.description or "")
+    request = request_of("v8-cross-plane", outputs=["orders"])
+    actual_request_json = request_json(request)
+    assert json.loads(actual_request_json) == request.alone.model_dump(mode="json")
+    assert max(map(len, actual_request_json.splitlines())) <= 132 + len(request.machine.description or "")
 
 
-def test_the_digest_is_that_of_the_attached_request(made: Make) -> None:
-    found = made("2d12")
-    content = json.dumps(json.loads(found.attachment.content), sort_keys=True, separators=(",", ":"))
-    (last,) = tables(found, "Appendix: request")
-    said = dict(values(last))
-    assert said["digest of the request"] == hashlib.sha256(content.encode()).hexdigest()
-    assert said["at"] == "2026-02-03T04:05:06Z"
-    assert dict(values(found.head))["date"] == "3 February 2026"
-    assert f"counterweight {package_version()}" in str(said["computed with"])
+def test_the_digest_is_that_of_the_attached_request(composer: Make) -> None:
+    record = composer("2d12")
+    content = json.dumps(json.loads(record.attachment.content), sort_keys=True, separators=(",", ":"))
+    (last,) = tables(record, "Appendix: request")
+    fields = dict(values(last))
+    assert fields["digest of the request"] == hashlib.sha256(content.encode()).hexdigest()
+    assert fields["at"] == "2026-02-03T04:05:06Z"
+    assert dict(values(record.head))["date"] == "3 February 2026"
+    assert f"counterweight {package_version()}" in str(fields["computed with"])
 
 
 @pytest.mark.parametrize(
@@ -207,8 +210,10 @@ def test_every_output_has_its_chapter() -> None:
     assert set(CHAPTERS) | {"residual", "stages", "balance_rate"} == set(get_args(OutputName))
 
 
-def test_an_engine_is_told_over_both_turns(made: Make) -> None:
-    (pressures,) = [one for one in tables(made("inline-four-engine"), "Inputs") if one.title.startswith("Indicated")]
+def test_an_engine_is_told_over_both_turns(composer: Make) -> None:
+    (pressures,) = [
+        table for table in tables(composer("inline-four-engine"), "Inputs") if table.title.startswith("Indicated")
+    ]
     firing = [0, 540, 180, 360]
     assert [row[:5] for row in values(pressures)] == [(str(k + 1), "head", 2, firing[k], 53) for k in range(4)]
 
@@ -220,8 +225,8 @@ def test_a_terminal_tells_every_30_degrees(turns: int) -> None:
     console = Console(width=80, record=True, file=io.StringIO())
     console.print(terminal([Chapter("Torque", (figure,))]))
     # analytic
-    told = re.findall(r"(\d+) │ *0\.5", console.export_text())
-    assert [int(each) for each in told] == [30 * step for step in range(12 * turns)]
+    matches = re.findall(r"(\d+) │ *0\.5", console.export_text())
+    assert [int(match) for match in matches] == [30 * step for step in range(12 * turns)]
 
 
 @pytest.mark.parametrize(
@@ -232,18 +237,20 @@ def test_a_terminal_tells_every_30_degrees(turns: int) -> None:
     ],
 )  # fmt: skip
 def test_an_angle_of_a_whole_turn_is_printed_as_none(value: float, text: str) -> None:
-    found = angle(value)
-    assert isinstance(found, Number)
+    phase = angle(value)
+    assert isinstance(phase, Number)
     # to all its digits where it is computed with
-    assert (found.text, found.value) == (text, value)
+    assert (phase.text, phase.value) == (text, value)
 
 
-def test_of_inertia_alone_nothing_is_filed_that_is_zero(made: Make) -> None:
+def test_of_inertia_alone_nothing_is_filed_that_is_zero(composer: Make) -> None:
     """No curves that are cosines, no powers and errors of none, no samples of crank pins."""
-    dry, driven = (made(name, outputs=["torque", "rod_loads", "orders"]) for name in ("v8-cross-plane", "2d12"))
-    counts = [sum(isinstance(one, Figure) for one in chapter(found, "Rod loads").blocks) for found in (dry, driven)]
+    dry, driven = (composer(name, outputs=["torque", "rod_loads", "orders"]) for name in ("v8-cross-plane", "2d12"))
+    counts = [
+        sum(isinstance(block, Figure) for block in chapter(record, "Rod loads").blocks) for record in (dry, driven)
+    ]
     assert counts == [0, 4]
-    names = [[row[0] for row in values(next(tables(found, "Torque")))] for found in (dry, driven)]
+    names = [[row[0] for row in values(next(tables(record, "Torque")))] for record in (dry, driven)]
     assert names[0] == ["largest torque over the cycle, N m", "fluctuation energy ΔE, J"]
     assert "shaft power, W" in names[1]
     # the orders stand in their chapter alone
@@ -252,7 +259,7 @@ def test_of_inertia_alone_nothing_is_filed_that_is_zero(made: Make) -> None:
 
 def test_a_peak_that_the_gap_outweighs_is_shown_as_below_it() -> None:
     """Analytic: a millionth of the yardstick, over the weight of the moment."""
-    request = asked("v60")
+    request = request_of("v60")
     answer = optimize(request)
     after, proof = answer.residual.after, answer.certificate
     assert after is not None
@@ -262,9 +269,13 @@ def test_a_peak_that_the_gap_outweighs_is_shown_as_below_it() -> None:
         moment = after.moment.model_copy(update={"peak_Nm": peak})
         residual = answer.residual.model_copy(update={"after": after.model_copy(update={"moment": moment})})
         before = residual.before.model_copy(update={"moment": moment})
-        found = answer.model_copy(update={"residual": residual.model_copy(update={"before": before})})
-        (block,) = (each for each in result(request, found, None).blocks if isinstance(each, Table) and each.title)
-        shown = block.rows[1][2]
-        assert isinstance(shown, Number)
-        assert shown.text.startswith("< ") is below
-        assert not below or most <= float(shown.text[2:]) <= 2.0 * most
+        variant = answer.model_copy(update={"residual": residual.model_copy(update={"before": before})})
+        (block,) = (
+            paragraph
+            for paragraph in result(request, variant, None).blocks
+            if isinstance(paragraph, Table) and paragraph.title
+        )
+        text = block.rows[1][2]
+        assert isinstance(text, Number)
+        assert text.text.startswith("< ") is below
+        assert not below or most <= float(text.text[2:]) <= 2.0 * most

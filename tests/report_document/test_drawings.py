@@ -14,7 +14,7 @@ from service.drawings.layout import layout_of
 from service.drawings.side import side
 from service.drawings.svg import AFTER, Drawing
 from service.report import charts
-from tests.report_document.conftest import asked
+from tests.report_document.conftest import request_of
 
 Point = tuple[float, float]
 
@@ -35,37 +35,40 @@ def area(outline: Sequence[Point]) -> float:
 
 
 def fitted(example: str, masses: Sequence[float]) -> list[Counterweight]:
-    found = optimize(asked(example)).counterweights
-    return [one.model_copy(update={"mass_kg": mass}) for one, mass in zip(found, masses, strict=True)]
+    counterweights = optimize(request_of(example)).counterweights
+    return [
+        counterweight.model_copy(update={"mass_kg": mass})
+        for counterweight, mass in zip(counterweights, masses, strict=True)
+    ]
 
 
 def test_crank_pins_stand_where_the_machine_says() -> None:
-    machine = asked("inline-six").machine
+    machine = request_of("inline-six").machine
     drawing = front(layout_of(machine, ()))
     x0, y0 = drawing.width / 2, drawing.height / 2
-    pins = [one for one in shapes(drawing, "circle") if one["r"] == "7"]
+    pins = [shape for shape in shapes(drawing, "circle") if shape["r"] == "7"]
     # analytic: y points upwards
-    for crank, pin in zip(sorted({one.crank_angle_deg % 360 for one in machine.throws}), pins, strict=True):
+    for crank, pin in zip(sorted({throw.crank_angle_deg % 360 for throw in machine.throws}), pins, strict=True):
         angle = math.degrees(math.atan2(y0 - float(pin["cy"]), float(pin["cx"]) - x0)) % 360
         assert angle == pytest.approx(crank, abs=0.1)
 
 
 def test_areas_of_counterweights_are_in_proportion_to_their_masses() -> None:
-    drawing = front(layout_of(asked("2d12").machine, fitted("2d12", (40, 20, 10, 5))))
-    areas = [area(points(one["d"])) for one in shapes(drawing, "path") if one["fill"] == AFTER]
+    drawing = front(layout_of(request_of("2d12").machine, fitted("2d12", (40, 20, 10, 5))))
+    areas = [area(points(shape["d"])) for shape in shapes(drawing, "path") if shape["fill"] == AFTER]
     # analytic, but for the corners of arcs and hundredths of a px
-    assert [one / areas[0] for one in areas] == pytest.approx([1, 0.5, 0.25, 0.125], rel=0.01)
+    assert [single_area / areas[0] for single_area in areas] == pytest.approx([1, 0.5, 0.25, 0.125], rel=0.01)
 
 
 def test_no_counterweights_are_drawn_where_there_are_none() -> None:
-    drawing = front(layout_of(asked("2d12").machine, fitted("2d12", (0, 0, 0, 0))))
-    assert not [one for one in shapes(drawing, "path") if one["fill"] == AFTER]
+    drawing = front(layout_of(request_of("2d12").machine, fitted("2d12", (0, 0, 0, 0))))
+    assert not [shape for shape in shapes(drawing, "path") if shape["fill"] == AFTER]
 
 
 def test_planes_along_the_shaft_are_to_scale() -> None:
-    machine = asked("2d12").machine
+    machine = request_of("2d12").machine
     drawing = side(layout_of(machine, fitted("2d12", (40, 20, 10, 5))), dimensions=True)
-    bars = [points(one["d"]) for one in shapes(drawing, "path") if one["fill"] == AFTER]
+    bars = [points(shape["d"]) for shape in shapes(drawing, "path") if shape["fill"] == AFTER]
     middles = [(bar[0][0] + bar[1][0]) / 2 for bar in bars]
     planes = [web.position_m for web in machine.webs]
     per_m = (middles[0] - middles[-1]) / (planes[0] - planes[-1])
@@ -77,7 +80,9 @@ def test_planes_along_the_shaft_are_to_scale() -> None:
 
 def test_a_hodograph_reaches_its_peak_in_the_direction_of_its_axis() -> None:
     drawing = charts.hodograph("force", "N", [charts.after("peak", 3.0, 1.0, 30.0)])
-    (path,) = (points(one["d"]) for one in shapes(drawing, "path") if one["stroke"] == AFTER and len(one["d"]) > 100)
+    (path,) = (
+        points(shape["d"]) for shape in shapes(drawing, "path") if shape["stroke"] == AFTER and len(shape["d"]) > 100
+    )
     x0, y0 = (sum(values) / len(values) for values in zip(*path[:-1], strict=True))
     tips = [(math.hypot(x - x0, y0 - y), math.degrees(math.atan2(y0 - y, x - x0)) % 180) for x, y in path]
     longest, shortest = max(tips), min(tips)
@@ -87,15 +92,15 @@ def test_a_hodograph_reaches_its_peak_in_the_direction_of_its_axis() -> None:
 
 def test_what_is_nothing_looks_like_nothing() -> None:
     drawing = charts.hodograph("force", "N", [charts.after("peak", 1e-9, 1e-9, 0.0)], least=10.0)
-    assert [float(one["r"]) for one in shapes(drawing, "circle")] == [2.5]
-    ends = [points(one["d"]) for one in shapes(drawing, "path") if one["stroke"] == AFTER]
+    assert [float(shape["r"]) for shape in shapes(drawing, "circle")] == [2.5]
+    ends = [points(shape["d"]) for shape in shapes(drawing, "path") if shape["stroke"] == AFTER]
     assert area(ends[0]) < 0.01
 
 
 def test_a_line_is_broken_where_it_has_no_value() -> None:
     drawing = charts.chart("load", "N", "z", [0, 1, 2, 3, 4, 5], [charts.Line("a", [1, 2, None, 3, 4, 5])])
-    drawn = [points(one["d"]) for one in shapes(drawing, "path") if one["stroke-width"] == "1.5"]
-    assert [len(one) for one in drawn] == [2, 3]
+    drawn = [points(shape["d"]) for shape in shapes(drawing, "path") if shape["stroke-width"] == "1.5"]
+    assert [len(values) for values in drawn] == [2, 3]
 
 
 def test_thinned_lines_keep_their_extremes() -> None:
@@ -103,7 +108,7 @@ def test_thinned_lines_keep_their_extremes() -> None:
     values = [math.sin(2 * math.pi * k / count) for k in range(count)]
     values[12_345] = 7.5
     drawing = charts.over_turn("load", "N", [360 * k / count for k in range(count)], [charts.Line("a", values)])
-    (line,) = (points(one["d"]) for one in shapes(drawing, "path") if one["stroke-width"] == "1.5")
+    (line,) = (points(shape["d"]) for shape in shapes(drawing, "path") if shape["stroke-width"] == "1.5")
     assert len(line) < 2000
     heights = [y for _, y in line]
     zero = heights[0]
@@ -115,6 +120,6 @@ def test_thinned_lines_keep_their_extremes() -> None:
 def test_lines_over_the_turns_end_where_all_begins_anew(turns: int) -> None:
     angle = [30.0 * step for step in range(12 * turns)]
     drawing = charts.over_turn("torque", "N m", angle, [charts.Line("machine", [1.0, *angle[1:]])])
-    texts = [one.text for one in ElementTree.fromstring(drawing.svg()).iter() if one.tag.endswith("text")]
+    texts = [element.text for element in ElementTree.fromstring(drawing.svg()).iter() if element.tag.endswith("text")]
     assert {"0", f"{120 * turns}", f"{360 * turns}"} <= set(texts)
     assert "720" in texts or turns == 1

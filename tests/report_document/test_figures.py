@@ -30,20 +30,20 @@ def _grading(grade: float) -> Any:
 
 
 def test_a_grade_is_that_with_counterweights_or_without() -> None:
-    asked: Any = SimpleNamespace(balance_quality=SimpleNamespace(grade_mm_s=6.3))
+    value: Any = SimpleNamespace(balance_quality=SimpleNamespace(grade_mm_s=6.3))
     answer: Any = SimpleNamespace(balance_quality=SimpleNamespace(before=_grading(40.0), after=_grading(5.0)))
-    (chapter,) = balance_quality(asked, answer)
-    words, found = chapter.blocks
+    (chapter,) = balance_quality(value, answer)
+    words, paragraph = chapter.blocks
     assert isinstance(words, Paragraph)
     assert "Reached: without counterweights G 40 mm/s; with counterweights G 5 mm/s." in words.text
-    assert isinstance(found, Table)
-    assert [_plain(line[4]) for line in found.rows] == [40.0, 80.0, 5.0, 10.0]
+    assert isinstance(paragraph, Table)
+    assert [_plain(line[4]) for line in paragraph.rows] == [40.0, 80.0, 5.0, 10.0]
 
 
 def test_a_row_stands_beside_its_throw_by_its_offset() -> None:
     throws = [throw(-0.3, 0.0, [row(0.0, 1.0, offset_m=0.02), row(90.0, 1.0, offset_m=-0.02)])]
-    made = ReciprocatingMachine.model_validate(machine(throws, [web("a", 0.0, 4.0)]))
-    (rows,) = (block for block in _reciprocating(made) if isinstance(block, Table) and block.title == "Rows")
+    design = ReciprocatingMachine.model_validate(machine(throws, [web("a", 0.0, 4.0)]))
+    (rows,) = (block for block in _reciprocating(design) if isinstance(block, Table) and block.title == "Rows")
     assert [round(_plain(line[2]), 12) for line in rows.rows] == [-0.28, -0.32]
 
 
@@ -55,19 +55,19 @@ def test_a_tolerance_alone_is_written_as_one() -> None:
 
 
 def test_nothing_is_not_below_a_gap() -> None:
-    shown = [
+    texts = [
         cell.text for cell in (figure_beside(value, 0.0, 0.5) for value in (0.1, 0.0, 0.5)) if isinstance(cell, Number)
     ]
-    assert [text.startswith("<") for text in shown] == [True, False, False]
+    assert [text.startswith("<") for text in texts] == [True, False, False]
 
 
 def test_cylinders_are_counted_from_1() -> None:
     request = OptimizeRequest.model_validate(json.loads(load("2d12")) | {"outputs": ["loads"]})
-    found = optimize(request).loads
-    assert found is not None
+    forces = optimize(request).loads
+    assert forces is not None
     assert isinstance(request.machine, ReciprocatingMachine)
-    tables = [block for block in loads(request.machine, found).blocks if isinstance(block, Table)]
+    tables = [block for block in loads(request.machine, forces).blocks if isinstance(block, Table)]
     (covers,) = (block for block in tables if any("cylinder" in column.title for column in block.columns))
-    numbers = [cover.cylinder for row in found.rows for cover in row.covers]
+    numbers = [cover.cylinder for row in forces.rows for cover in row.covers]
     assert min(numbers) == 0
     assert [_plain(line[1]) for line in covers.rows] == [number + 1 for number in numbers]

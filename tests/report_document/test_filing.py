@@ -16,7 +16,7 @@ from service.report.blocks import Table
 from service.report.document import report
 from service.report.html import html
 from service.report.pdf import pdf
-from tests.report_document.conftest import AT, asked
+from tests.report_document.conftest import AT, request_of
 from tests.report_document.test_as_built import FITTED
 
 
@@ -48,8 +48,8 @@ def pages(content: bytes) -> list[str]:
 
 
 def test_the_first_page_is_title_block_decision_and_foundation() -> None:
-    made = report(asked("2d12", document=HEAD, fitted=FITTED), AT)
-    first, *_ = found = pages(pdf(made))
+    document = report(request_of("2d12", document=HEAD, fitted=FITTED), AT)
+    first, *_ = actual_pages = pages(pdf(document))
     for words in ("WeberCompressors", "NordicAir", "L.Berg", "24November2026", "counterweightsascast"):
         assert words in first
     order = [
@@ -57,19 +57,19 @@ def test_the_first_page_is_title_block_decision_and_foundation() -> None:
     ]
     assert order == sorted(order)
     # an ordinary machine
-    assert len(found) <= 8
-    assert "digestoftherequest" in found[-1]
+    assert len(actual_pages) <= 8
+    assert "digestoftherequest" in actual_pages[-1]
     assert "digestoftherequest" not in first
-    page = html(made).decode()
+    page = html(document).decode()
     assert 'src="data:image/png;base64,' in page
     assert "M. Weber" in page
 
 
 def test_a_logo_is_its_pixels_alone() -> None:
-    kept = png(image())
-    assert b"tEXt" not in kept
+    actual_png = png(image())
+    assert b"tEXt" not in actual_png
     # analytic: six pixels of three bytes and a filter, four lines
-    data = kept[kept.index(b"IDAT") + 4 : -16]
+    data = actual_png[actual_png.index(b"IDAT") + 4 : -16]
     assert len(zlib.decompress(data)) == 4 * (1 + 18)
 
 
@@ -88,14 +88,14 @@ def test_a_logo_is_its_pixels_alone() -> None:
 )
 def test_what_is_no_picture_is_refused_at_its_field(logo: str) -> None:
     with pytest.raises(ValidationError) as refused:
-        asked("2d12", document={"logo": logo})
+        request_of("2d12", document={"logo": logo})
     assert refused.value.errors()[0]["loc"] == ("document", "logo")
 
 
 @pytest.mark.parametrize("date", ["2026-02-30", "24.11.2026", "2026-1-1"])
 def test_a_day_is_one_of_the_calendar(date: str) -> None:
     with pytest.raises(ValidationError):
-        asked("2d12", document={"date": date})
+        request_of("2d12", document={"date": date})
 
 
 @pytest.mark.parametrize(
@@ -113,12 +113,12 @@ def test_thousands_are_set_apart(figure: str, printed: str) -> None:
 
 
 def test_rod_loads_without_gas_are_named_so() -> None:
-    machine = asked("2d12").machine.model_dump(mode="json", exclude_none=True)
+    machine = request_of("2d12").machine.model_dump(mode="json", exclude_none=True)
     for throw in machine["throws"]:
         throw["rows"][0].pop("cylinder")
     machine.pop("friction")
-    made = report(asked("2d12", machine=machine, outputs=["rod_loads"]), AT)
-    (chapter,) = [one for one in made.chapters if one.title == "Rod loads"]
+    document = report(request_of("2d12", machine=machine, outputs=["rod_loads"]), AT)
+    (chapter,) = [section for section in document.chapters if section.title == "Rod loads"]
     (cases,) = [
         block for block in chapter.blocks if isinstance(block, Table) and block.title == "Rod force by load case"
     ]

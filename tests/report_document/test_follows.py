@@ -51,21 +51,21 @@ _DAILY = _ALWAYS | set(sorted(FOLLOWS)[::_STEP])
     "name", [name if name in _DAILY else pytest.param(name, marks=pytest.mark.nightly) for name in FOLLOWS]
 )
 def test_the_report_changes_where_a_figure_stands_and_nowhere_else(name: str) -> None:
-    (change,) = (one for one in subject().changes if one.name == name)
+    (change,) = (variant for variant in subject().changes if variant.name == name)
     assert subject().follows(change) == FOLLOWS[name]
 
 
 def test_every_figure_stands_in_its_place_when_all_are_changed_at_once() -> None:
     """What is shown itself; what follows from several has no number of its own."""
-    numbers, other = subject().changed_together()
-    shown = places(rendered(other).chapters)
-    wanted = {place[2:]: numbers[name] for name in numbers for place in FOLLOWS[name] if place.startswith("= ")}
-    assert len(wanted) > 130
-    assert {place: shown.get(place) for place in wanted} == wanted
+    numbers, value = subject().changed_together()
+    actual_places = places(rendered(value).chapters)
+    actual_numbers = {place[2:]: numbers[name] for name in numbers for place in FOLLOWS[name] if place.startswith("= ")}
+    assert len(actual_numbers) > 130
+    assert {place: actual_places.get(place) for place in actual_numbers} == actual_numbers
 
 
 def test_every_kind_of_figure_of_the_answer_is_in_the_table() -> None:
-    assert [one.name for one in subject().changes] == list(FOLLOWS)
+    assert [change.name for change in subject().changes] == list(FOLLOWS)
 
 
 #: in the name of a leaf, and in every label that shows it
@@ -107,37 +107,37 @@ def test_labels_say_what_the_names_of_the_leaves_say() -> None:
     labels = [
         (name, place[2:].rstrip("'")) for name, where in FOLLOWS.items() for place in where if place.startswith("= ")
     ]
-    found = [(said, name, label) for name, label in labels for said in SAID if re.search(said, name)]
-    assert len(found) > 150
-    assert [(name, label) for said, name, label in found if not re.search(SAID[said], label)] == []
+    values = [(text, name, label) for name, label in labels for text in SAID if re.search(text, name)]
+    assert len(values) > 150
+    assert [(name, label) for text, name, label in values if not re.search(SAID[text], label)] == []
 
 
 def test_fields_in_each_other_s_place_are_noticed() -> None:
     """A chapter that takes one field for another changes where the table says that the other stands."""
-    shown = [name for name, where in FOLLOWS.items() if where != [NOWHERE]]
+    labels = [name for name, where in FOLLOWS.items() if where != [NOWHERE]]
     chance = random.Random(20261125)
-    swaps = [chance.sample(shown, 2) for _ in range(100)]
-    assert sum(FOLLOWS[one] != FOLLOWS[other] for one, other in swaps) >= 98
+    swaps = [chance.sample(labels, 2) for _ in range(100)]
+    assert sum(FOLLOWS[first] != FOLLOWS[second] for first, second in swaps) >= 98
     # nearer by, where it happens: fields of one table
     siblings: dict[str, list[str]] = {}
-    for name in shown:
+    for name in labels:
         if any(place.startswith("= ") for place in FOLLOWS[name]):
             siblings.setdefault(re.split(r"\.\w+(?:\[\])?(?: \w+)?$", name)[0], []).append(name)
     alike = [
-        (one, other)
+        (first_name, second_name)
         for names in siblings.values()
-        for place, one in enumerate(names)
-        for other in names[place + 1 :]
-        if FOLLOWS[one] == FOLLOWS[other]
+        for place, first_name in enumerate(names)
+        for second_name in names[place + 1 :]
+        if FOLLOWS[first_name] == FOLLOWS[second_name]
     ]
     assert alike == []
 
 
-def exchanged(found: OptimizeAnswer, one: str, other: str) -> OptimizeAnswer:
+def exchanged(optimum: OptimizeAnswer, first: str, second: str) -> OptimizeAnswer:
     """The answer with two series of the motion in each other's place."""
-    body = found.model_dump()
+    body = optimum.model_dump()
     for row in body["kinematics"]["rows"]:
-        row[one], row[other] = row[other], row[one]
+        row[first], row[second] = row[second], row[first]
     return OptimizeAnswer.model_validate(body)
 
 
@@ -149,9 +149,9 @@ def test_velocity_is_not_shown_as_acceleration() -> None:
         assert right[place] != wrong[place]
 
 
-def workbook_cells(found: OptimizeAnswer) -> dict[tuple[str, int, int], object]:
+def workbook_cells(optimum: OptimizeAnswer) -> dict[tuple[str, int, int], object]:
     """Every cell of the workbook on an answer."""
-    book = openpyxl.load_workbook(io.BytesIO(answered(request().alone, found)), read_only=True)
+    book = openpyxl.load_workbook(io.BytesIO(answered(request().alone, optimum)), read_only=True)
     return {
         (sheet.title, line, place): value
         for sheet in book.worksheets
@@ -176,9 +176,9 @@ def workbook_cells(found: OptimizeAnswer) -> dict[tuple[str, int, int], object]:
     ],
 )
 def test_the_workbook_changes_in_the_cell_of_the_figure(name: str) -> None:
-    (change,) = (one for one in subject().changes if one.name == name)
-    _, new, other = subject().changed(change)
-    before, after = workbook_cells(answer()), workbook_cells(other)
+    (change,) = (variant for variant in subject().changes if variant.name == name)
+    _, new, number = subject().changed(change)
+    before, after = workbook_cells(answer()), workbook_cells(number)
     ((place, value),) = ((place, value) for place, value in after.items() if before.get(place) != value)
     # a series stands in one cell, as JSON
     assert _holds(json.loads(value) if isinstance(value, str) else value, new)
@@ -187,30 +187,30 @@ def test_the_workbook_changes_in_the_cell_of_the_figure(name: str) -> None:
     assert any(str(step) in str(text) for step in change.path if isinstance(step, str) for text in (*line, *heads))
 
 
-def _holds(shown: object, number: float) -> bool:
+def _holds(record: object, number: float) -> bool:
     """Whether a number stands in a value read from JSON."""
-    if isinstance(shown, dict):
-        return any(_holds(one, number) for one in shown.values())
-    if isinstance(shown, list):
-        return any(_holds(one, number) for one in shown)
-    return shown == pytest.approx(number, rel=1e-15)
+    if isinstance(record, dict):
+        return any(_holds(single_record, number) for single_record in record.values())
+    if isinstance(record, list):
+        return any(_holds(value, number) for value in record)
+    return record == pytest.approx(number, rel=1e-15)
 
 
 def test_the_terminal_writes_every_figure_of_the_tables_in_their_order() -> None:
-    made = rendered(answer())
+    document = rendered(answer())
     console = Console(width=600, record=True, file=io.StringIO())
-    console.print(terminal(made.chapters))
+    console.print(terminal(document.chapters))
     text = console.export_text()
     place = 0
-    for cell in figures(made):
-        found = text.find(cell.text, place)
-        assert found >= 0, cell
-        place = found + len(cell.text)
+    for cell in figures(document):
+        count = text.find(cell.text, place)
+        assert count >= 0, cell
+        place = count + len(cell.text)
 
 
-def figures(made: Document) -> list[Number]:
+def figures(document: Document) -> list[Number]:
     """Every figure of the tables, in order."""
-    blocks = (block for chapter in made.chapters for block in chapter.blocks if isinstance(block, Table))
+    blocks = (block for chapter in document.chapters for block in chapter.blocks if isinstance(block, Table))
     return [cell for block in blocks for row in block.rows for cell in row if isinstance(cell, Number)]
 
 
@@ -238,9 +238,9 @@ class _Cells(HTMLParser):
 
 
 def test_the_page_writes_every_figure_of_the_tables_in_their_order() -> None:
-    made = rendered(answer())
-    wanted = [typeset(cell.text) for cell in figures(made)]
-    cells = iter(one.strip() for one in _Cells(html(made).decode()).cells)
-    assert len(wanted) > 400
+    document = rendered(answer())
+    texts = [typeset(cell.text) for cell in figures(document)]
+    cells = iter(cell.strip() for cell in _Cells(html(document).decode()).cells)
+    assert len(texts) > 400
     # `in` goes on with the iterator: one after the other
-    assert [one for one in wanted if one not in cells] == []
+    assert [text for text in texts if text not in cells] == []

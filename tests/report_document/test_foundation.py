@@ -30,9 +30,9 @@ def _solved() -> tuple[OptimizeRequest, OptimizeAnswer]:
 
 def test_the_chapter_holds_every_figure_and_no_row_of_zeros() -> None:
     _, answer = _solved()
-    found = answer.foundation_loads
-    assert found is not None
-    chapter = foundation_loads(found)
+    foundations = answer.foundation_loads
+    assert foundations is not None
+    chapter = foundation_loads(foundations)
     forces, couples = (block for block in chapter.blocks if isinstance(block, Table))
     # regression: along y only what a counterweight alone leaves; order 6 is below a thousandth
     assert [row[:2] for row in forces.rows] == [
@@ -42,27 +42,31 @@ def test_the_chapter_holds_every_figure_and_no_row_of_zeros() -> None:
         ("4", "along x"),
     ]
     assert "as built, N" in [column.title for column in forces.columns]
-    built = found[0].as_built
-    assert found[0].after is not None
+    built = foundations[0].as_built
+    assert foundations[0].after is not None
     assert built is not None
     first = [cell.value for cell in forces.rows[0] if isinstance(cell, Number)]
-    told = [one.force_x for one in (found[0].before, found[0].after, built)]
-    assert first == [value for one in told for value in (one.amplitude_N, one.amplitude_N / 1e3, one.phase_deg)]
+    force_xes = [load.force_x for load in (foundations[0].before, foundations[0].after, built)]
+    assert first == [
+        value for force_x in force_xes for value in (force_x.amplitude_N, force_x.amplitude_N / 1e3, force_x.phase_deg)
+    ]
     assert couples.rows[0][1] == "horizontal"
     second = [cell.value for cell in couples.rows[0] if isinstance(cell, Number)]
-    assert second[0] == found[0].before.couple_of_x_forces.amplitude_Nm
+    assert second[0] == foundations[0].before.couple_of_x_forces.amplitude_Nm
     words = [block.text for block in chapter.blocks if isinstance(block, Paragraph)]
-    left_out = max(one.after.force_x.amplitude_N for one in found[4:] if one.after is not None)
+    left_out = max(
+        foundation.after.force_x.amplitude_N for foundation in foundations[4:] if foundation.after is not None
+    )
     assert any(text.startswith(f"Forces that are not listed are at most {digits(left_out)} N") for text in words)
 
 
 def test_the_table_is_csv_of_numbers_by_rest_and_on_the_command_line() -> None:
     request, answer = _solved()
     with TestClient(create_app(Settings(), warm=False)) as client:
-        sent = client.post("/v1/tables/foundation_loads", json=request.model_dump(mode="json"))
-    assert sent.status_code == 200
-    assert sent.headers["content-type"] == "text/csv; charset=utf-8; header=present"
-    heads, *lines = csv.reader(io.StringIO(sent.text))
+        response = client.post("/v1/tables/foundation_loads", json=request.model_dump(mode="json"))
+    assert response.status_code == 200
+    assert response.headers["content-type"] == "text/csv; charset=utf-8; header=present"
+    heads, *lines = csv.reader(io.StringIO(response.text))
     assert len(lines) == 24
     row = dict(zip(heads, lines[2], strict=True))
     assert row["load"] == "horizontal couple"
@@ -74,7 +78,7 @@ def test_the_table_is_csv_of_numbers_by_rest_and_on_the_command_line() -> None:
     assert float(row["as built, kN or kN m"]) == built.couple_of_x_forces.amplitude_Nm / 1e3
     ran = CliRunner().invoke(app, ["table", "foundation_loads", "-"], input=request.model_dump_json())
     assert ran.exit_code == 0
-    assert ran.stdout.splitlines() == sent.text.splitlines()
+    assert ran.stdout.splitlines() == response.text.splitlines()
     assert CliRunner().invoke(app, ["table", "none", "-"], input="{}").exit_code == 2
 
 

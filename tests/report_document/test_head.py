@@ -19,7 +19,7 @@ from service.report.html import html
 from service.report.pdf import pdf
 from service.settings import Settings
 from tests.night import part
-from tests.report_document.conftest import AT, MARKUP, asked
+from tests.report_document.conftest import AT, MARKUP, request_of
 
 HEAD = {
     "project": "Nitrogen plant",
@@ -39,15 +39,15 @@ def pages(content: bytes) -> list[str]:
 @cache
 def filed(example: str) -> tuple[Document, bytes]:
     """A document with the head, and its file."""
-    made = report(asked(example, document=HEAD), AT)
-    return made, pdf(made)
+    document = report(request_of(example, document=HEAD), AT)
+    return document, pdf(document)
 
 
 def test_the_head_says_what_the_request_gives() -> None:
-    made, content = filed("2d12")
-    assert dict(made.head.rows[:6]) == {name: value for name, value in HEAD.items() if name != "notes"}
-    assert made.notes == ("For approval.", "Supersedes revision A.")
-    page = html(made).decode()
+    document, content = filed("2d12")
+    assert dict(document.head.rows[:6]) == {name: value for name, value in HEAD.items() if name != "notes"}
+    assert document.notes == ("For approval.", "Supersedes revision A.")
+    page = html(document).decode()
     first, *_ = pages(content)
     for value in HEAD.values():
         for line in filter(None, value.splitlines()):
@@ -56,27 +56,27 @@ def test_the_head_says_what_the_request_gives() -> None:
 
 
 def test_what_is_not_given_leaves_no_gap() -> None:
-    made = report(asked("2d12", document={"revision": "B"}), AT)
-    assert [row[0] for row in made.head.rows[:2]] == ["revision", "status"]
-    assert made.notes == ()
+    document = report(request_of("2d12", document={"revision": "B"}), AT)
+    assert [row[0] for row in document.head.rows[:2]] == ["revision", "status"]
+    assert document.notes == ()
 
 
 def test_names_of_the_head_are_names() -> None:
-    made = report(asked("2d12", document=dict.fromkeys(("project", "author", "notes"), MARKUP)), AT)
-    assert "<script>x" not in html(made).decode()
-    assert "".join(pages(pdf(made))).count(re.sub(r"\s", "", MARKUP)) >= 3
+    document = report(request_of("2d12", document=dict.fromkeys(("project", "author", "notes"), MARKUP)), AT)
+    assert "<script>x" not in html(document).decode()
+    assert "".join(pages(pdf(document))).count(re.sub(r"\s", "", MARKUP)) >= 3
 
 
 @pytest.mark.parametrize("example", part(2, ["2d12", "v8-cross-plane"]))
 def test_verdict_and_counterweights_are_on_the_first_page_and_the_contents_follow(example: str) -> None:
-    made, content = filed(example)
-    found = pages(content)
-    assert "1Result" in found[0]
-    assert "2Counterweights" in found[0]
-    (contents,) = [page for page in found if "Contents1Result" in page]
-    assert contents in found[:2]
-    bodies = [re.sub(r"\d{4}-\d\d-\d\dT[0-9:]+Z\d+/\d+$", "", page) for page in found]
-    for number, chapter in enumerate(made.chapters, start=1):
+    document, content = filed(example)
+    actual_pages = pages(content)
+    assert "1Result" in actual_pages[0]
+    assert "2Counterweights" in actual_pages[0]
+    (contents,) = [page for page in actual_pages if "Contents1Result" in page]
+    assert contents in actual_pages[:2]
+    bodies = [re.sub(r"\d{4}-\d\d-\d\dT[0-9:]+Z\d+/\d+$", "", page) for page in actual_pages]
+    for number, chapter in enumerate(document.chapters, start=1):
         heading = f"{number}{chapter.title}".replace(" ", "")
         assert f"{heading}..." in contents
         # no heading is the last thing on its page
@@ -103,18 +103,18 @@ def test_no_page_is_half_empty() -> None:
 
 def test_it_is_filed_after_machine_number_and_revision() -> None:
     with TestClient(create_app(Settings(), warm=False)) as client:
-        body = asked("2d12", document=HEAD).model_dump(mode="json")
-        found = client.post("/v1/report", json=body, headers={"Accept": "application/pdf"})
-        assert found.headers["content-disposition"] == 'inline; filename="2D12-90-2-20 K-1047 B.pdf"'
+        body = request_of("2d12", document=HEAD).model_dump(mode="json")
+        response = client.post("/v1/report", json=body, headers={"Accept": "application/pdf"})
+        assert response.headers["content-disposition"] == 'inline; filename="2D12-90-2-20 K-1047 B.pdf"'
         body["machine"]["name"] = "Kältemaschine 冷/../x\"; filename*=UTF-8''evil"
-        other = client.post("/v1/report", json=body).headers["content-disposition"]
-        assert other.startswith('inline; filename="K')
-        assert other.count("filename*=") == 1
+        text = client.post("/v1/report", json=body).headers["content-disposition"]
+        assert text.startswith('inline; filename="K')
+        assert text.count("filename*=") == 1
         wrong = client.post("/v1/report", json={**body, "document": {"revision": "x" * 121}})
         assert (wrong.status_code, wrong.json()["errors"][0]["pointer"]) == (422, "/document/revision")
 
 
 @given(st.text())
 def test_no_text_makes_a_header_or_a_path_of_a_name(stem: str) -> None:
-    said = file_name(stem, ".pdf")
-    assert re.fullmatch(r"filename=\"[A-Za-z0-9_ .()+,=@-]+\.pdf\"(; filename\*=UTF-8''[A-Za-z0-9_.~%-]+)?", said)
+    name = file_name(stem, ".pdf")
+    assert re.fullmatch(r"filename=\"[A-Za-z0-9_ .()+,=@-]+\.pdf\"(; filename\*=UTF-8''[A-Za-z0-9_.~%-]+)?", name)

@@ -45,8 +45,8 @@ class Page(HTMLParser):
 
 
 @pytest.fixture(scope="module")
-def page(made: Make) -> Page:
-    return Page(html(made("2d12", outputs=["torque", "orders"])))
+def page(composer: Make) -> Page:
+    return Page(html(composer("2d12", outputs=["torque", "orders"])))
 
 
 def test_nothing_comes_from_outside_and_nothing_runs(page: Page) -> None:
@@ -60,16 +60,18 @@ def test_nothing_comes_from_outside_and_nothing_runs(page: Page) -> None:
         assert not any("//" in (value or "") for name, value in attributes.items() if name != "xmlns")
 
 
-def test_the_styles_load_nothing(made: Make) -> None:
-    styles = re.findall(rb"<style>(.*?)</style>", html(made("2d12")), re.DOTALL)
+def test_the_styles_load_nothing(composer: Make) -> None:
+    styles = re.findall(rb"<style>(.*?)</style>", html(composer("2d12")), re.DOTALL)
     assert len(styles) == 1
     assert b"url(" not in styles[0]
     assert b"@import" not in styles[0]
 
 
 def test_the_policy_forbids_what_is_not_there(page: Page) -> None:
-    policies = [found for tag, found in page.elements if found.get("http-equiv") == "Content-Security-Policy"]
-    assert [found["content"] for found in policies] == ["default-src 'none'; img-src data:; style-src 'unsafe-inline'"]
+    policies = [fields for tag, fields in page.elements if fields.get("http-equiv") == "Content-Security-Policy"]
+    assert [policy["content"] for policy in policies] == [
+        "default-src 'none'; img-src data:; style-src 'unsafe-inline'"
+    ]
 
 
 def test_whoever_cannot_see_it_is_told_what_is_what(page: Page) -> None:
@@ -78,30 +80,30 @@ def test_whoever_cannot_see_it_is_told_what_is_what(page: Page) -> None:
     # four of machine and first order, the stages, the torque: higher orders of horizontal rows act along x alone, and
     # straight lines are not drawn
     assert len(drawings) == 6
-    assert all(found["role"] == "img" and found["aria-label"] for found in drawings)
-    assert all(found["scope"] in ("col", "row") for tag, found in page.elements if tag == "th")
+    assert all(drawing["role"] == "img" and drawing["aria-label"] for drawing in drawings)
+    assert all(fields["scope"] in ("col", "row") for tag, fields in page.elements if tag == "th")
     assert [tag for tag, _ in page.elements if re.fullmatch("h[1-6]", tag)][:2] == ["h1", "h2"]
-    chapters = [found["href"] for tag, found in page.elements if tag == "a"]
-    assert chapters == [f"#{found['id']}" for tag, found in page.elements if tag == "section"]
+    chapters = [fields["href"] for tag, fields in page.elements if tag == "a"]
+    assert chapters == [f"#{fields['id']}" for tag, fields in page.elements if tag == "section"]
 
 
-def test_figures_are_there_to_all_their_digits(made: Make) -> None:
-    answered = [found for tag, found in Page(html(made("2d12"))).elements if tag == "data"]
-    assert any(float(found["value"] or "") == pytest.approx(5003.068, rel=1e-6) for found in answered)
+def test_figures_are_there_to_all_their_digits(composer: Make) -> None:
+    answered = [fields for tag, fields in Page(html(composer("2d12"))).elements if tag == "data"]
+    assert any(float(fields["value"] or "") == pytest.approx(5003.068, rel=1e-6) for fields in answered)
 
 
-def test_a_minus_is_one_where_it_is_read_and_a_hyphen_where_it_is_computed_with(made: Make) -> None:
+def test_a_minus_is_one_where_it_is_read_and_a_hyphen_where_it_is_computed_with(composer: Make) -> None:
     # throw 2 of the 2D12 stands at -0.175 m
-    content = html(made("2d12")).decode()
+    content = html(composer("2d12")).decode()
     assert '<data value="-0.175">\N{MINUS SIGN}0.175</data>' in content
     assert not re.search(r"<data[^>]*>[^<]*-", content)
 
 
-def test_numbers_stand_below_their_heading(made: Make) -> None:
+def test_numbers_stand_below_their_heading(composer: Make) -> None:
     """On the right, both of them: also in a first column, which names its row."""
     rows: list[list[dict[str, str | None]]] = []
     first = []
-    for tag, attributes in Page(html(made("catalogue-twin"))).elements:
+    for tag, attributes in Page(html(composer("catalogue-twin"))).elements:
         if tag == "table":
             rows = []
         elif tag == "tr":
@@ -126,23 +128,23 @@ def test_names_that_are_markup_are_names(hostile: Document) -> None:
     assert any(MARKUP[:17] in "".join(drawing.itertext()) for drawing in drawings(content))
 
 
-def test_characters_that_do_not_print_are_replaced(made: Make) -> None:
+def test_characters_that_do_not_print_are_replaced(composer: Make) -> None:
     # the schema refuses these already; what is not the schema's matter is still safe
-    machine = made("2d12")
+    machine = composer("2d12")
     spoiled = replace(machine, title="a\u202eb\x00")
     assert "a\ufffdb\ufffd" in html(spoiled).decode()
 
 
 def test_every_drawing_is_well_formed_by_itself(hostile: Document) -> None:
-    found = drawings(html(hostile))
-    assert len(found) == 13
-    shapes = {child.tag.rpartition("}")[2] for drawing in found for child in drawing}
+    actual_drawings = drawings(html(hostile))
+    assert len(actual_drawings) == 13
+    shapes = {child.tag.rpartition("}")[2] for drawing in actual_drawings for child in drawing}
     assert shapes == {"path", "circle", "text", "g"}
 
 
 def drawings(content: bytes) -> list[ElementTree.Element]:
-    return [ElementTree.fromstring(one) for one in re.findall(rb"<svg.*?</svg>", content, re.DOTALL)]
+    return [ElementTree.fromstring(match) for match in re.findall(rb"<svg.*?</svg>", content, re.DOTALL)]
 
 
-def test_the_same_document_is_the_same_page(made: Make) -> None:
-    assert html(made("v60")) == html(made("v60"))
+def test_the_same_document_is_the_same_page(composer: Make) -> None:
+    assert html(composer("v60")) == html(composer("v60"))

@@ -16,7 +16,7 @@ from service.report.chapters.answers import analyzed
 from service.report.chapters.balance import first_order
 from service.report.chapters.making import holding
 from service.report.document import report
-from tests.report_document.conftest import AT, asked
+from tests.report_document.conftest import AT, request_of
 
 _TITLE = "What holds them at {} rpm"
 
@@ -28,22 +28,22 @@ def machine(**changes: Any) -> Any:
 def held(blocks: Any, rpm: str) -> list[tuple[Any, ...]]:
     """Rows of the table, numbers as they are."""
     tables = [block for block in blocks if isinstance(block, Table)]
-    (found,) = [each for each in tables if each.title == _TITLE.format(rpm)]
-    return [tuple(cell.value if isinstance(cell, Number) else cell for cell in row) for row in found.rows]
+    (table,) = [sheet for sheet in tables if sheet.title == _TITLE.format(rpm)]
+    return [tuple(cell.value if isinstance(cell, Number) else cell for cell in row) for row in table.rows]
 
 
-def fitted(made: Document) -> Any:
-    (chapter,) = [one for one in made.chapters if one.title == "Counterweights"]
+def fitted(document: Document) -> Any:
+    (chapter,) = [section for section in document.chapters if section.title == "Counterweights"]
     return chapter.blocks
 
 
 def test_weights_with_a_radius_and_a_plane_of_their_own() -> None:
-    given = [
+    counterweights = [
         {"web": "1a", "mass_kg": 10, "angle_deg": 180, "radius_m": 0.21},
         {"position_m": 0.05, "radius_m": 0.18, "mass_kg": 4, "angle_deg": 30},
     ]
-    request = AnalyzeRequest.model_validate({"machine": machine(overspeed_rpm=500), "counterweights": given})
-    (chapter,) = [one for one in analyzed(request, analyze(request)) if one.title == "Counterweights"]
+    request = AnalyzeRequest.model_validate({"machine": machine(overspeed_rpm=500), "counterweights": counterweights})
+    (chapter,) = [section for section in analyzed(request, analyze(request)) if section.title == "Counterweights"]
     square = (500 * np.pi / 30) ** 2
     # analytic: m r omega^2 at the overspeed
     assert held(chapter.blocks, "500") == [
@@ -52,9 +52,9 @@ def test_weights_with_a_radius_and_a_plane_of_their_own() -> None:
     ]
     places = next(block for block in chapter.blocks if isinstance(block, Table))
     assert [column.title for column in places.columns[4:6]] == ["plane z, m", "radius, m"]
-    shown = [tuple(cell.value for cell in row[4:6] if isinstance(cell, Number)) for row in places.rows]
-    assert (1.43, 0.21) in shown
-    assert (0.05, 0.18) in shown
+    values = [tuple(cell.value for cell in row[4:6] if isinstance(cell, Number)) for row in places.rows]
+    assert (1.43, 0.21) in values
+    assert (0.05, 0.18) in values
 
 
 @pytest.mark.parametrize("limited", [False, True])
@@ -63,7 +63,7 @@ def test_what_bolts_hold(limited: bool) -> None:
     if limited:
         changed["webs"][0]["max_centrifugal_force_N"] = 5e3
     rpm = 420 if limited else 504
-    rows = held(fitted(report(asked("m-type-four", machine=changed), AT)), str(rpm))
+    rows = held(fitted(report(request_of("m-type-four", machine=changed), AT)), str(rpm))
     assert {"1a", "4b"} <= {row[0] for row in rows}
     assert not limited or rows[0][1] <= 5e3 * (1 + 1e-9)
 
@@ -83,14 +83,14 @@ def test_bolts_hold_light_counterweights_too_and_no_plates() -> None:
 
 
 def test_nothing_is_said_where_nothing_is_asked() -> None:
-    titles = [block.title for block in fitted(report(asked("m-type-four"), AT)) if isinstance(block, Table)]
+    titles = [block.title for block in fitted(report(request_of("m-type-four"), AT)) if isinstance(block, Table)]
     assert not [title for title in titles if title.startswith("What holds them")]
 
 
 def test_a_direction_is_filed_where_something_is_or_comes() -> None:
     """Analytic: what is 0 without counterweights and with them is left out, what is 0 in one of both is not."""
-    asked = AnalyzeRequest.model_validate({"machine": machine(), "counterweights": []})
-    answer = analyze(asked)
+    body = AnalyzeRequest.model_validate({"machine": machine(), "counterweights": []})
+    answer = analyze(body)
     assert answer.residual is not None
     was, floor = answer.residual.before, answer.floor
 
@@ -98,9 +98,9 @@ def test_a_direction_is_filed_where_something_is_or_comes() -> None:
         return was.model_copy(update={"moment": was.moment.model_copy(update={field: 0.0})})
 
     def titles(before: FirstOrder, after: FirstOrder | None) -> set[Any]:
-        chapter = first_order(asked.machine, before, after, floor, "with", None)
-        (found,) = [block for block in chapter.blocks if isinstance(block, Table)]
-        return {row[0] for row in found.rows}
+        chapter = first_order(body.machine, before, after, floor, "with", None)
+        (table,) = [block for block in chapter.blocks if isinstance(block, Table)]
+        return {row[0] for row in table.rows}
 
     title, none = "peak horizontal couple (of the x forces), N m", without("peak_x_Nm")
     assert title in titles(was, none)

@@ -16,17 +16,17 @@ from service.tables.tables import order
 TWIN = json.loads((Path(__file__).parents[2] / "examples/catalogue-twin.json").read_bytes())
 
 
-def asked(**machine: Any) -> OptimizeRequest:
+def twin_request(**machine: Any) -> OptimizeRequest:
     return OptimizeRequest.model_validate({"machine": {**TWIN["machine"], **machine}})
 
 
 def test_castings_by_size() -> None:
     """Independent: every casting of the answer, counted here; tolerances from the sensitivity."""
-    request = asked()
+    request = twin_request()
     answer = optimize(request)
     head, *lines = order(request)
     assert head[:2] == ["size, kg", "of this size"]
-    fitted = {one.web: one for one in answer.counterweights if one.mass_kg > 0}
+    fitted = {counterweight.web: counterweight for counterweight in answer.counterweights if counterweight.mass_kg > 0}
     assert {line[3] for line in lines} == set(fitted)
     masses = [float(str(line[0])) for line in lines]
     assert masses == sorted(masses, reverse=True)
@@ -35,10 +35,17 @@ def test_castings_by_size() -> None:
     room = ALLOWANCE * answer.certificate.yardstick
     share = min(room / answer.sensitivity.objective_rise_per_percent, 1.0) / 100
     for mass, pieces, radius, web, from_crank, drawn, off, turned in lines:
-        one = fitted[str(web)]
-        assert (mass, radius, from_crank, drawn) == (one.mass_kg, one.radius_m, one.angle_from_crank_deg, one.angle_deg)
-        assert pieces == sum(each.mass_kg == mass and each.radius_m == radius for each in fitted.values())
-        assert off == pytest.approx(share * one.mass_kg)
+        weight = fitted[str(web)]
+        assert (mass, radius, from_crank, drawn) == (
+            weight.mass_kg,
+            weight.radius_m,
+            weight.angle_from_crank_deg,
+            weight.angle_deg,
+        )
+        assert pieces == sum(
+            counterweight.mass_kg == mass and counterweight.radius_m == radius for counterweight in fitted.values()
+        )
+        assert off == pytest.approx(share * weight.mass_kg)
         assert turned is not None
     titles = [chapter.title for chapter in optimized(request, answer)]
     assert "Order for the workshop" in titles
@@ -46,7 +53,7 @@ def test_castings_by_size() -> None:
 
 def test_pieces_of_balance_shafts_are_made_too() -> None:
     place = {"name": "s", "position_m": 0.0, "counterweight_radius_m": 0.05, "max_mass_kg": 30.0}
-    request = asked(balance_shafts=[{"name": "back", "speed_ratio": -1, "webs": [place]}])
+    request = twin_request(balance_shafts=[{"name": "back", "speed_ratio": -1, "webs": [place]}])
     _, *lines = order(request)
     (line,) = (line for line in lines if line[3] == "s")
     (shaft,) = optimize(request).balance_shafts
@@ -57,4 +64,4 @@ def test_pieces_of_balance_shafts_are_made_too() -> None:
 
 def test_where_there_is_nothing_to_order_it_is_refused() -> None:
     with pytest.raises(OutOfRange, match="nothing to order"):
-        order(asked(max_counterweights=0))
+        order(twin_request(max_counterweights=0))

@@ -13,7 +13,7 @@ from service.report.blocks import Document
 from service.report.document import report
 from service.report.pdf import pdf
 from tests.night import part
-from tests.report_document.conftest import AT, MARKUP, asked
+from tests.report_document.conftest import AT, MARKUP, request_of
 
 Make = Callable[..., Document]
 
@@ -30,7 +30,7 @@ def read(content: bytes) -> tuple[PdfReader, str]:
 
 @cache
 def filed(example: str) -> tuple[Document, PdfReader, str]:
-    document = report(asked(example), AT)
+    document = report(request_of(example), AT)
     return document, *read(pdf(document))
 
 
@@ -62,10 +62,10 @@ def test_it_says_what_was_found() -> None:
     assert "noneweighlessthan232.699kgtogether" in text
 
 
-def test_the_request_is_attached(made: Make) -> None:
-    reader, _ = read(pdf(made("v60", outputs=["orders"])))
+def test_the_request_is_attached(composer: Make) -> None:
+    reader, _ = read(pdf(composer("v60", outputs=["orders"])))
     ((content,),) = [reader.attachments[name] for name in reader.attachments]
-    assert json.loads(content) == asked("v60", outputs=["orders"]).alone.model_dump(mode="json")
+    assert json.loads(content) == request_of("v60", outputs=["orders"]).alone.model_dump(mode="json")
     assert list(reader.attachments) == ["request.json"]
 
 
@@ -86,5 +86,5 @@ def test_it_does_nothing_by_itself(of_names: tuple[PdfReader, str]) -> None:
     assert "/JavaScript" not in reader.root_object.get("/Names", {})
 
 
-def test_the_same_document_is_the_same_file(made: Make) -> None:
-    assert pdf(made("v60")) == pdf(made("v60"))
+def test_the_same_document_is_the_same_file(composer: Make) -> None:
+    assert pdf(composer("v60")) == pdf(composer("v60"))

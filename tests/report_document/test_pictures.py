@@ -12,7 +12,7 @@ from service.computations.table import COMPUTATIONS
 from service.report.blocks import Figure
 from service.report.document import report
 from service.settings import Settings
-from tests.report_document.conftest import AT, asked
+from tests.report_document.conftest import AT, request_of
 
 _SVG = "{http://www.w3.org/2000/svg}"
 NAMES = sorted(name.removeprefix("picture_") for name in COMPUTATIONS if name.startswith("picture_"))
@@ -20,37 +20,37 @@ NAMES = sorted(name.removeprefix("picture_") for name in COMPUTATIONS if name.st
 _SHAPES = {"svg", "g", "path", "circle", "text", "title"}
 
 
-def made(name: str, machine: str) -> ElementTree.Element:
-    one = COMPUTATIONS[f"picture_{name}"]
-    drawing = one.function(asked(machine))
+def picture_of(name: str, machine: str) -> ElementTree.Element:
+    computation = COMPUTATIONS[f"picture_{name}"]
+    drawing = computation.function(request_of(machine))
     return ElementTree.fromstring(drawing.svg())
 
 
 @pytest.mark.parametrize("name", [name for name in NAMES if name != "pin_loads"])
 def test_a_picture_is_shapes_alone_and_says_what_it_shows(name: str) -> None:
-    found = made(name, "2d12")
-    assert {each.tag.removeprefix(_SVG) for each in found.iter()} <= _SHAPES
-    assert found.get("aria-label")
-    attributes = {key for each in found.iter() for key in each.keys()}  # noqa: SIM118 - of an element, not of a mapping
+    element = picture_of(name, "2d12")
+    assert {single_element.tag.removeprefix(_SVG) for single_element in element.iter()} <= _SHAPES
+    assert element.get("aria-label")
+    attributes = {key for single_element in element.iter() for key in single_element.keys()}  # noqa: SIM118 - of an element, not of a mapping
     assert not {key for key in attributes if key.startswith("on") or "href" in key or key == "style"}
 
 
 @pytest.mark.parametrize("name", ["front", "side", "force", "moment", "stages"])
 def test_it_is_the_one_of_the_report(name: str) -> None:
-    one = COMPUTATIONS[f"picture_{name}"]
+    computation = COMPUTATIONS[f"picture_{name}"]
     of_report = [
         drawing.svg()
-        for chapter in report(asked("2d12"), AT).chapters
+        for chapter in report(request_of("2d12"), AT).chapters
         for block in chapter.blocks
         if isinstance(block, Figure)
         for drawing in block.drawings
     ]
-    assert one.function(asked("2d12")).svg() in of_report
+    assert computation.function(request_of("2d12")).svg() in of_report
 
 
 @pytest.mark.parametrize("name", [name for name in NAMES if name != "pin_loads"])
 def test_throws_without_rows_are_drawn_or_refused_by_their_field(name: str) -> None:
-    request = asked("2d12").alone
+    request = request_of("2d12").alone
     throws = tuple(throw.model_copy(update={"rows": ()}) for throw in request.machine.throws)
     machine = request.machine.model_copy(update={"throws": throws, "friction": None})
     computation = COMPUTATIONS[f"picture_{name}"].function
@@ -64,20 +64,20 @@ def test_throws_without_rows_are_drawn_or_refused_by_their_field(name: str) -> N
 
 
 def test_bearings_stand_two_to_a_row() -> None:
-    found = made("bearings", "2d12")
-    corners = [each.get("transform") for each in found if each.tag == f"{_SVG}g"]
+    element = picture_of("bearings", "2d12")
+    corners = [single_element.get("transform") for single_element in element if single_element.tag == f"{_SVG}g"]
     # analytic: half a page and half of the gap of 12; the height of a picture
     assert corners == ["translate(0 0)", "translate(326 0)", "translate(0 360)"]
-    assert found.get("width") == "640"
+    assert element.get("width") == "640"
 
 
 def test_it_comes_by_post_and_what_is_missing_is_named() -> None:
     client = TestClient(create_app(Settings(), warm=False))
     with client:
-        body = asked("2d12").alone.model_dump(mode="json")
-        found = client.post("/v1/pictures/front", json=body)
-        assert (found.status_code, found.headers["content-type"]) == (200, "image/svg+xml")
-        assert ElementTree.fromstring(found.content).get("font-family") == "sans-serif"
+        body = request_of("2d12").alone.model_dump(mode="json")
+        response = client.post("/v1/pictures/front", json=body)
+        assert (response.status_code, response.headers["content-type"]) == (200, "image/svg+xml")
+        assert ElementTree.fromstring(response.content).get("font-family") == "sans-serif"
         body["machine"].pop("bearings")
         refused = client.post("/v1/pictures/bearings", json=body)
         assert refused.status_code == 422
@@ -86,13 +86,13 @@ def test_it_comes_by_post_and_what_is_missing_is_named() -> None:
 
 
 def test_a_picture_has_the_size_ground_and_title_that_are_asked_for() -> None:
-    body = asked("2d12").alone.model_dump(mode="json")
+    body = request_of("2d12").alone.model_dump(mode="json")
     style = {"width_px": 1280, "transparent": False, "title": "<front> & more"}
     with TestClient(create_app(Settings(), warm=False)) as client:
-        found = client.post("/v1/pictures/front", json={**body, "picture": style})
-        root = ElementTree.fromstring(found.content)
+        response = client.post("/v1/pictures/front", json={**body, "picture": style})
+        root = ElementTree.fromstring(response.content)
         assert root.get("width") == "1280"
-        assert "<front> & more" in [each.text for each in root.iter(f"{_SVG}text")]
+        assert "<front> & more" in [element.text for element in root.iter(f"{_SVG}text")]
         assert root[0].get("fill") == "white"
         pixels = client.post("/v1/pictures/front", json={**body, "picture": style}, headers={"Accept": "image/png"})
         assert (pixels.status_code, pixels.headers["content-type"]) == (200, "image/png")

@@ -19,7 +19,7 @@ from service.report.chapters.pins import _assumption
 from service.report.chapters.pins import pins as chapters_of_pins
 from service.settings import Settings
 from service.tables.pins import lines
-from tests.report_document.conftest import asked
+from tests.report_document.conftest import request_of
 
 EVEN = {"pin_count": 3, "pin_circle_radius_m": 0.05, "rotation_torque_Nm": 12.5}
 
@@ -44,7 +44,7 @@ def test_dead_points_are_where_a_load_is_nothing() -> None:
     data = tables["Dead points, stiffness and clearance"]
     dead = [[cell.value for cell in row[1:3] if isinstance(cell, Number)] for row in data.rows]
     # analytic: pins a third of a revolution apart
-    assert [pytest.approx(one) for one in dead] == [[0, 180], [120, 300], [240, 60]]
+    assert [pytest.approx(values) for values in dead] == [[0, 180], [120, 300], [240, 60]]
     for pin, angles in zip(answer.pins, dead, strict=True):
         assert [pin.load_N[round(angle)] for angle in angles] == [pytest.approx(0.0, abs=1e-9)] * 2
     assert [row[3] for row in data.rows] == ["equal"] * 3
@@ -67,17 +67,20 @@ def test_stiffness_and_clearance_are_in_view() -> None:
 
 
 def test_the_picture_draws_every_pin_and_a_crank_has_none() -> None:
-    one = COMPUTATIONS["picture_pin_loads"]
-    texts = [each.text for each in ElementTree.fromstring(one.function(asked("scroll-three-pins")).svg()).iter()]
+    picture_pin_loads = COMPUTATIONS["picture_pin_loads"]
+    texts = [
+        element.text
+        for element in ElementTree.fromstring(picture_pin_loads.function(request_of("scroll-three-pins")).svg()).iter()
+    ]
     assert {"pin 1", "pin 2", "pin 3"} <= set(texts)
     with TestClient(create_app(Settings(), warm=False)) as client:
-        sent = client.post("/v1/scroll/pin-loads", json=EVEN, headers={"Accept": "text/csv"})
-        assert sent.status_code == 200
-        assert len(list(csv.reader(io.StringIO(sent.text)))) == 361
+        response = client.post("/v1/scroll/pin-loads", json=EVEN, headers={"Accept": "text/csv"})
+        assert response.status_code == 200
+        assert len(list(csv.reader(io.StringIO(response.text)))) == 361
         assert client.post("/v1/scroll/pin-loads", json=EVEN).headers["content-type"] == "application/json"
         drawn = client.post("/v1/scroll/pin-loads", json=EVEN, headers={"Accept": "image/svg+xml"})
         assert drawn.text.startswith("<svg")
-        body = asked("2d12").alone.model_dump(mode="json")
+        body = request_of("2d12").alone.model_dump(mode="json")
         assert client.post("/v1/tables/pin_loads", json=body).status_code == 422
 
 

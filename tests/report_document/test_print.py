@@ -28,31 +28,33 @@ def browser() -> Iterator[Browser]:
     if path is None:
         pytest.skip(chromium.MISSING)
     with sync_playwright() as playwright:
-        found = playwright.chromium.launch(executable_path=path, args=["--no-sandbox", "--disable-dev-shm-usage"])
-        yield found
-        found.close()
+        actual_browser = playwright.chromium.launch(
+            executable_path=path, args=["--no-sandbox", "--disable-dev-shm-usage"]
+        )
+        yield actual_browser
+        actual_browser.close()
 
 
 @pytest.fixture
-def opened(browser: Browser, made: Make, tmp_path: Path) -> Iterator[Callable[..., Page]]:
+def opened(browser: Browser, composer: Make, tmp_path: Path) -> Iterator[Callable[..., Page]]:
     """Open the report on an example from a file; nothing must be complained about and nothing else be asked for."""
-    seen: list[str] = []
+    texts: list[str] = []
     pages: list[Page] = []
 
     def open_(example: str, width: int, **changes: Any) -> Page:
         file = tmp_path / "report.html"
-        file.write_bytes(html(made(example, **changes)))
+        file.write_bytes(html(composer(example, **changes)))
         page = browser.new_page(viewport={"width": width, "height": 900})
         pages.append(page)
-        page.on("console", lambda message: seen.append(message.text))
-        page.on("request", lambda request: seen.append(request.url) if request.url != file.as_uri() else None)
+        page.on("console", lambda message: texts.append(message.text))
+        page.on("request", lambda request: texts.append(request.url) if request.url != file.as_uri() else None)
         page.goto(file.as_uri())
         return page
 
     yield open_
     for page in pages:
         page.close()
-    assert seen == []
+    assert texts == []
 
 
 @pytest.mark.parametrize("example", part(2, ["v8-cross-plane", "scroll-three-pins"]))

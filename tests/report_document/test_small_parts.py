@@ -18,7 +18,7 @@ from service.report.document import report
 from service.report.html import html
 from service.report.pictures import styled
 from tests.optimize.shafts import shaft, single
-from tests.report_document.conftest import AT, asked
+from tests.report_document.conftest import AT, request_of
 
 
 @pytest.mark.parametrize(
@@ -32,8 +32,8 @@ from tests.report_document.conftest import AT, asked
 )
 def test_marks_of_an_axis_are_round_and_around_the_values(low: float, high: float, marks: list[float]) -> None:
     """Analytic."""
-    first, last, found = axis(low, high)
-    assert found == pytest.approx(marks)
+    first, last, values = axis(low, high)
+    assert values == pytest.approx(marks)
     assert (first, last) == (pytest.approx(marks[0]), pytest.approx(marks[-1]))
 
 
@@ -53,9 +53,9 @@ def test_what_is_reached_stays_until_something_better_is() -> None:
 
 def test_a_title_stands_above_the_drawing() -> None:
     drawing = Drawing(200.0, 100.0, "a plot")
-    made = styled(drawing, PictureStyle(title="Loads"))
-    assert made.width == drawing.width
-    assert made.height > drawing.height
+    actual_drawing = styled(drawing, PictureStyle(title="Loads"))
+    assert actual_drawing.width == drawing.width
+    assert actual_drawing.height > drawing.height
     assert styled(drawing, PictureStyle(width_px=400)).height == drawing.height
 
 
@@ -63,15 +63,15 @@ def test_only_a_machine_with_balance_shafts_has_their_mass() -> None:
     line = b"total mass on the balance shafts"
     body = {"machine": single([shaft("back", -1)])}
     assert line in html(report(ReportRequest.model_validate(body), AT))
-    assert line not in html(report(asked("2d12"), AT))
+    assert line not in html(report(request_of("2d12"), AT))
 
 
 @pytest.mark.parametrize(("best", "above"), [(0.5, "20 %"), (60.0, "20 %"), (0.0, "0 %")])
 def test_a_cheaper_choice_is_compared_with_the_best_however_small(best: float, above: str) -> None:
     """Analytic: 1.2 of the best is 20 % above it; beside a best of nothing there is no share."""
-    answer = optimize(asked("2d12").alone)
+    answer = optimize(request_of("2d12").alone)
     assert answer.certificate is not None
-    other = Alternative.model_validate(
+    alternative = Alternative.model_validate(
         {
             "minimised": "pieces",
             "allowance": 0.3,
@@ -84,8 +84,8 @@ def test_a_cheaper_choice_is_compared_with_the_best_however_small(best: float, a
         }
     )
     certificate = answer.certificate.model_copy(update={"objective": best})
-    shown = answer.model_copy(update={"certificate": certificate, "alternatives": (other,)})
-    ((_, block),) = (chapter.blocks for chapter in alternatives(shown))
+    variant = answer.model_copy(update={"certificate": certificate, "alternatives": (alternative,)})
+    ((_, block),) = (chapter.blocks for chapter in alternatives(variant))
     assert isinstance(block, Table)
     (row,) = block.rows
     assert [cell.text if isinstance(cell, Number) else cell for cell in row] == [
@@ -95,7 +95,7 @@ def test_a_cheaper_choice_is_compared_with_the_best_however_small(best: float, a
 
 @pytest.mark.parametrize("outputs", [[], ["stages"]])
 def test_stages_are_shown_where_they_are_asked_for(outputs: list[str]) -> None:
-    request = asked("2d12", outputs=outputs).alone
+    request = request_of("2d12", outputs=outputs).alone
     titles = [chapter.title for chapter in optimized(request, optimize(request))]
     assert ("The eight balancing stages" in titles) == bool(outputs)
     assert len(titles) == len(set(titles))
@@ -103,7 +103,7 @@ def test_stages_are_shown_where_they_are_asked_for(outputs: list[str]) -> None:
 
 @pytest.mark.parametrize("outputs", [["residual"], ["residual", "stages"]])
 def test_stages_of_what_is_analyzed_are_shown_where_they_are_asked_for(outputs: list[str]) -> None:
-    machine = asked("2d12").alone.machine
+    machine = request_of("2d12").alone.machine
     request = AnalyzeRequest.model_validate({"machine": machine, "counterweights": [], "outputs": outputs})
     titles = [chapter.title for chapter in analyzed(request, analyze(request))]
     assert titles.count("The eight balancing stages") == len(outputs) - 1

@@ -10,7 +10,7 @@ import pytest
 
 from tests.night import part
 from tests.report_document.follow import stored
-from tests.report_document.subjects import NAMES, TABLE, made
+from tests.report_document.subjects import NAMES, TABLE, subject_of
 from tests.report_document.test_follows import SAID
 
 PLACES = stored(TABLE)
@@ -23,9 +23,9 @@ def of(name: str) -> dict[str, list[str]]:
 
 @pytest.mark.parametrize("name", part(4, NAMES))
 def test_chapters_change_where_a_figure_stands_and_nowhere_else(name: str) -> None:
-    places, subject = of(name), made(name)
-    found = {one.name: subject.follows(one) for one in subject.changes if one.name in places}
-    assert found == places
+    places, subject = of(name), subject_of(name)
+    fields = {change.name: subject.follows(change) for change in subject.changes if change.name in places}
+    assert fields == places
 
 
 def test_the_table_holds_enough_and_no_other_subject() -> None:
@@ -38,6 +38,6 @@ def test_labels_say_what_the_names_of_the_leaves_say() -> None:
     assert [
         (leaf, label)
         for leaf, label in labels
-        for said, right in SAID.items()
-        if re.search(said, leaf) and not re.search(right, label)
+        for name, right in SAID.items()
+        if re.search(name, leaf) and not re.search(right, label)
     ] == []

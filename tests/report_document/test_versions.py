@@ -15,35 +15,37 @@ from service.report.blocks import Number, Table
 from service.report.chapters import versions
 from service.report.document import report
 from service.report.pdf import pdf
-from tests.report_document.conftest import AT, asked
+from tests.report_document.conftest import AT, request_of
 
 FITTED = [{"web": web, "mass_kg": 55, "angle_deg": angle} for web, angle in (("1a", 180), ("2b", 0))]
 
 
 def faster(speed_rpm: float) -> dict[str, Any]:
-    machine: dict[str, Any] = asked("2d12").machine.model_dump(mode="json")
+    machine: dict[str, Any] = request_of("2d12").machine.model_dump(mode="json")
     return {**machine, "speed_rpm": speed_rpm}
 
 
 def tables(request: ReportRequest) -> list[Table]:
-    found = [one for one in report(request, AT).chapters if one.title == "Versions compared"]
-    return [block for one in found for block in one.blocks if isinstance(block, Table)]
+    chapters = [chapter for chapter in report(request, AT).chapters if chapter.title == "Versions compared"]
+    return [block for chapter in chapters for block in chapter.blocks if isinstance(block, Table)]
 
 
 def test_each_version_is_what_the_service_answers_for_it_alone() -> None:
-    request = asked(
+    request = request_of(
         "2d12",
         versions=[{"name": "as built", "counterweights": FITTED}, {"name": "600 rpm", "machine": faster(600)}],
     )
     figures, weights, differences = tables(request)
-    this = optimize(asked("2d12"))
+    this = optimize(request_of("2d12"))
     built = analyze(AnalyzeRequest(machine=request.machine, counterweights=request.versions[0].counterweights or ()))
-    other = optimize(asked("2d12", machine=faster(600)))
+    answer = optimize(request_of("2d12", machine=faster(600)))
     force = [cell.value for cell in figures.rows[1][1:] if isinstance(cell, Number)]
     assert built.residual is not None
     # independent: the same through their own doors
     assert force == [
-        left.force.peak_N for one in (this.residual, built.residual, other.residual) if (left := one.after) is not None
+        left.force.peak_N
+        for residual in (this.residual, built.residual, answer.residual)
+        if (left := residual.after) is not None
     ]
     # analytic: forces go with the square of the speed, 1.44, and the counterweights are the same
     assert figures.rows[2][-1] == "+44.00 %"
@@ -55,11 +57,11 @@ def test_each_version_is_what_the_service_answers_for_it_alone() -> None:
 
 
 def test_without_versions_there_is_no_chapter() -> None:
-    assert tables(asked("2d12")) == []
+    assert tables(request_of("2d12")) == []
 
 
 @pytest.mark.parametrize(
-    ("version", "field", "said"),
+    ("version", "field", "text"),
     [
         ({"counterweights": [{"web": "9", "mass_kg": 1, "angle_deg": 0}]}, ("counterweights", 0, "web"), "no web"),
         ({"counterweights": [], "objective": {}}, ("objective",), "counterweights of its own"),
@@ -68,32 +70,32 @@ def test_without_versions_there_is_no_chapter() -> None:
     ],
 )
 def test_a_wrong_version_is_refused_at_its_field(
-    version: dict[str, Any], field: tuple[str | int, ...], said: str
+    version: dict[str, Any], field: tuple[str | int, ...], text: str
 ) -> None:
-    body = {**asked("2d12").model_dump(mode="json"), "versions": [{"name": "x", **version}]}
+    body = {**request_of("2d12").model_dump(mode="json"), "versions": [{"name": "x", **version}]}
     with pytest.raises(InvalidRequest) as refused:
         check(ReportRequest, body)
     (problem,) = refused.value.problems
     assert problem.path == ("versions", 0, *field)
-    assert said in problem.message
+    assert text in problem.message
 
 
 def test_two_of_one_name_and_too_many_are_refused() -> None:
     with pytest.raises(ValueError, match="another version has this name"):
-        asked("2d12", versions=[{"name": "x"}, {"name": "x"}])
+        request_of("2d12", versions=[{"name": "x"}, {"name": "x"}])
     with pytest.raises(ValueError, match="at most 4"):
-        asked("2d12", versions=[{"name": str(n)} for n in range(5)])
+        request_of("2d12", versions=[{"name": str(n)} for n in range(5)])
 
 
 def test_what_the_machine_of_a_version_lacks_is_named_there() -> None:
     bare = {**faster(500), "bearings": []}
     with pytest.raises(MissingInput) as missing:
-        report(asked("2d12", versions=[{"name": "x", "machine": bare, "objective": {"bearing_weight": 1}}]), AT)
+        report(request_of("2d12", versions=[{"name": "x", "machine": bare, "objective": {"bearing_weight": 1}}]), AT)
     assert missing.value.problems[0].path[:3] == ("versions", 0, "machine")
 
 
 def test_what_an_operator_allows_holds_for_versions_too() -> None:
-    request = asked("2d12", machine={**faster(500), "webs": []}, versions=[{"name": "x", "machine": faster(600)}])
+    request = request_of("2d12", machine={**faster(500), "webs": []}, versions=[{"name": "x", "machine": faster(600)}])
     with pytest.raises(InvalidRequest) as refused:
         SizeLimits(throws=500, rows=500, webs=3, angles=36_000, designs=10).require(request)
     assert [problem.path for problem in refused.value.problems] == [("versions", 0, "machine", "webs")]

@@ -14,8 +14,8 @@ from service.report.chapters.limits import limits
 from service.report.document import report
 from service.report.html import html
 from service.verification import checker
-from tests.optimize.whole_turn import asked, inline_six, one_throw
-from tests.report_document.conftest import asked as asked_of
+from tests.optimize.whole_turn import inline_six, request_of, single_throw
+from tests.report_document.conftest import request_of as asked_of
 
 
 def of(request: OptimizeRequest) -> ReportRequest:
@@ -23,11 +23,11 @@ def of(request: OptimizeRequest) -> ReportRequest:
     return ReportRequest.model_validate(request.model_dump())
 
 
-def rows_of(made: Document, title: str) -> list[list[Any]]:
+def rows_of(document: Document, title: str) -> list[list[Any]]:
     """The cells of the one table of this title."""
-    blocks = (block for chapter in made.chapters for block in chapter.blocks)
-    (told,) = [block for block in blocks if isinstance(block, Table) and block.title == title]
-    return [[cell.value if isinstance(cell, Number) else cell for cell in row] for row in told.rows]
+    blocks = (block for chapter in document.chapters for block in chapter.blocks)
+    (table,) = [block for block in blocks if isinstance(block, Table) and block.title == title]
+    return [[cell.value if isinstance(cell, Number) else cell for cell in row] for row in table.rows]
 
 
 @pytest.mark.parametrize(
@@ -38,13 +38,13 @@ def rows_of(made: Document, title: str) -> list[list[Any]]:
     ],
 )
 def test_the_report_names_goals_and_ceilings(objective: dict[str, Any], words: str) -> None:
-    request = asked(one_throw(), **objective)
+    request = request_of(single_throw(), **objective)
     assert words in html(report(of(request))).decode()
 
 
 def test_what_goals_came_to_and_their_allowance_stand_in_the_report() -> None:
     goals = [{"goal": "external", "allowance": 0.01}, {"goal": "bearings"}]
-    request = asked(one_throw(), bearing_weight=1, priorities=goals)
+    request = request_of(single_throw(), bearing_weight=1, priorities=goals)
     document = html(report(of(request))).decode()
     assert "Goals in their order" in document
     assert "as the shaft sees them" in document
@@ -57,10 +57,10 @@ def test_every_limit_has_words() -> None:
 
 def test_a_ceiling_that_is_reached_is_named_and_has_its_price() -> None:
     """105 kN lie above the smallest peak of the 2D12, and below what the best force and moment leave."""
-    made = report(asked_of("2d12", objective={"bearing_ceiling_N": 1.05e5}))
-    document = html(made).decode()
+    record = report(asked_of("2d12", objective={"bearing_ceiling_N": 1.05e5}))
+    document = html(record).decode()
     assert "ceiling of the bearing loads" in document.split("limits of the machine reached")[1].split("</tr>")[0]
-    rows = rows_of(made, "Shadow prices of the limits")
+    rows = rows_of(record, "Shadow prices of the limits")
     assert [row[3] for row in rows if row[0] == "ceiling of the bearing loads"] == ["N/N"]
 
 
@@ -85,10 +85,10 @@ def test_why_there_are_no_shadow_prices(fields: dict[str, Any], machine: dict[st
 
 def test_of_ceilings_out_of_reach_the_one_that_each_figure_is_of() -> None:
     """Analytic: one throw, rod without end: m_rec / 4 a bearing; a ceiling in Pa counts by the area of the bearing."""
-    machine = one_throw()
+    machine = single_throw()
     for bearing in machine["bearings"]:
         bearing |= {"diameter_m": 0.06, "length_m": 0.02}
-    request = asked(machine, bearing_ceiling_N=0.1, specific_load_ceiling_Pa=0.05 / 0.0012)
+    request = request_of(machine, bearing_ceiling_N=0.1, specific_load_ceiling_Pa=0.05 / 0.0012)
     rows = rows_of(report(of(request)), "Other responses under a ceiling, each by itself")
     specific = "specific bearing loads, times diameter and length"
     # both bearings are alike, so that either may stand for both
@@ -117,8 +117,8 @@ def test_warnings_and_balance_rates_stand_in_the_report() -> None:
 )
 def test_the_checker_names_what_it_does_not_cover(objective: dict[str, Any], places: set[str]) -> None:
     """What has no proof of its own in an answer over a revolution is said, and nothing else is left open."""
-    request = asked(inline_six(), **objective)
-    found = checker().verify(json.loads(request.model_dump_json()), json.loads(optimize(request).model_dump_json()))
-    assert found["verdict"] == "not covered"
-    assert {*found["not_covered"]} == places
-    assert not [one for one in found["claims"] if one["verdict"] == "broken"]
+    request = request_of(inline_six(), **objective)
+    verdict = checker().verify(json.loads(request.model_dump_json()), json.loads(optimize(request).model_dump_json()))
+    assert verdict["verdict"] == "not covered"
+    assert {*verdict["not_covered"]} == places
+    assert not [claim for claim in verdict["claims"] if claim["verdict"] == "broken"]

@@ -41,9 +41,9 @@ def test_conflicting_scenarios_are_named_in_the_report() -> None:
 def test_the_terminal_shows_the_worst_case(tmp_path: Path) -> None:
     file = tmp_path / "asked.json"
     file.write_text(json.dumps(BODY))
-    done = CliRunner().invoke(app, ["optimize", str(file)])
-    assert done.exit_code == 0
-    assert "In the worst case" in done.output
+    process = CliRunner().invoke(app, ["optimize", str(file)])
+    assert process.exit_code == 0
+    assert "In the worst case" in process.output
 
 
 def test_a_stranger_holds_scenarios_and_tolerances() -> None:

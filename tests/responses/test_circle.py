@@ -22,10 +22,10 @@ def test_one_point_two_points_and_an_obtuse_triangle() -> None:
 
 def test_an_even_triangle_is_held_by_all_three() -> None:
     # analytic: circumradius 1, equal weights
-    found = smallest_circle(np.exp(2j * np.pi * np.arange(3) / 3) + 5.0)
-    assert found.radius == pytest.approx(1.0, rel=1e-14)
-    assert found.centre == pytest.approx(5.0)
-    assert found.weights == pytest.approx([1 / 3] * 3)
+    circle = smallest_circle(np.exp(2j * np.pi * np.arange(3) / 3) + 5.0)
+    assert circle.radius == pytest.approx(1.0, rel=1e-14)
+    assert circle.centre == pytest.approx(5.0)
+    assert circle.weights == pytest.approx([1 / 3] * 3)
 
 
 @settings(max_examples=100, deadline=None)
@@ -43,27 +43,27 @@ def test_it_holds_all_points_and_its_own_hold_it(seed: int, count: int, kind: st
     elif kind == "twice":
         points = np.concatenate([points, points])
     points = points * 10.0 ** rng.uniform(-6, 6) + complex(rng.normal(), rng.normal())
-    found = smallest_circle(points)
+    circle = smallest_circle(points)
     size = np.max(np.abs(points))
-    on = points[found.support] - found.centre
-    assert np.all(np.abs(points - found.centre) <= found.radius + 1e-13 * size)
-    assert np.abs(on) == pytest.approx(np.full(on.size, found.radius), abs=1e-12 * size)
-    assert np.all(found.weights >= 0)
-    assert np.sum(found.weights) == pytest.approx(1.0)
-    assert abs(np.sum(found.weights * on)) <= 1e-12 * size
+    on = points[circle.support] - circle.centre
+    assert np.all(np.abs(points - circle.centre) <= circle.radius + 1e-13 * size)
+    assert np.abs(on) == pytest.approx(np.full(on.size, circle.radius), abs=1e-12 * size)
+    assert np.all(circle.weights >= 0)
+    assert np.sum(circle.weights) == pytest.approx(1.0)
+    assert abs(np.sum(circle.weights * on)) <= 1e-12 * size
 
 
 def test_it_is_what_a_minimisation_finds() -> None:
     # independent: the farthest point, minimised over the centre by a general method
     rng = np.random.default_rng(7)
     points = rng.normal(size=30) + 1j * rng.normal(size=30)
-    found = minimize(
+    minimum = minimize(
         lambda at: float(np.max(np.abs(points - at[0] - 1j * at[1]))),
         [0.0, 0.0],
         method="Nelder-Mead",
         options={"xatol": 1e-10, "fatol": 1e-12, "maxiter": 4000},
     )
-    assert smallest_circle(points).radius == pytest.approx(found.fun, rel=1e-7)
+    assert smallest_circle(points).radius == pytest.approx(minimum.fun, rel=1e-7)
 
 
 @settings(max_examples=100, deadline=None)
@@ -80,7 +80,7 @@ def test_points_that_all_but_coincide_are_held_by_no_more_than_their_circle(seed
         area = abs(mp.im(mp.conj(second - first) * (third - first))) / 2
         acute = squares[0] + squares[1] > squares[2]
         exact = mp.fprod(sides) / (4 * area) if acute and area > 0 else max(sides) / 2
-        found = mp.mpf(smallest_circle(points).radius)
+        value = mp.mpf(smallest_circle(points).radius)
         size = float(abs(offset)) + 1.0
-        assert found <= exact + 4e-16 * size
-        assert found >= exact * (1 - mp.mpf("1e-12"))
+        assert value <= exact + 4e-16 * size
+        assert value >= exact * (1 - mp.mpf("1e-12"))

@@ -20,19 +20,19 @@ def _response(orders: list[float], coefficients: list[complex], period_deg: floa
 def test_the_peak_of_an_ellipse_is_the_sum_of_its_phasors() -> None:
     # analytic: |f| + |b|
     response = _response([0, -2], [1.0 + 2.0j, -0.3 + 0.4j])
-    found = response.peak(0.5 - 1.0j, 1e-12)
+    bracket = response.peak(0.5 - 1.0j, 1e-12)
     exact = abs(1.5 + 1.0j) + 0.5
-    assert found.lower <= exact * (1 + 1e-15)
-    assert found.upper >= exact * (1 - 1e-15)
-    assert found.upper - found.lower <= 2e-12 * exact
-    assert abs(response.at(np.array([found.angle]))[0] + 0.5 - 1.0j) == pytest.approx(float(found.lower), rel=1e-13)
+    assert bracket.lower <= exact * (1 + 1e-15)
+    assert bracket.upper >= exact * (1 - 1e-15)
+    assert bracket.upper - bracket.lower <= 2e-12 * exact
+    assert abs(response.at(np.array([bracket.angle]))[0] + 0.5 - 1.0j) == pytest.approx(float(bracket.lower), rel=1e-13)
 
 
 def test_a_magnitude_that_does_not_change_is_bracketed_as_well() -> None:
     # analytic: a circle about the origin has the same magnitude everywhere
-    found = _response([0, -2], [3.0, 2.0j]).peak(-3.0, 1e-10)
-    assert found.lower == pytest.approx(2.0, rel=1e-10)
-    assert 0 <= found.upper - found.lower <= 2e-10
+    bracket = _response([0, -2], [3.0, 2.0j]).peak(-3.0, 1e-10)
+    assert bracket.lower == pytest.approx(2.0, rel=1e-10)
+    assert 0 <= bracket.upper - bracket.lower <= 2e-10
 
 
 @by_day(20, 40)
@@ -45,13 +45,13 @@ def test_brute_force_never_beats_the_bracket(seed: int, period_deg: float) -> No
     coefficient *= 10.0 ** rng.uniform(-3, 0, orders.size)
     response = _response(orders.tolist(), coefficient.tolist(), period_deg)
     offset = complex(rng.normal(), rng.normal())
-    found = response.peak(offset, 1e-9)
+    bracket = response.peak(offset, 1e-9)
     angle = np.arange(0.0, np.deg2rad(period_deg), np.deg2rad(0.01))
     brute = np.max(np.abs(response.at(angle) + offset))
     missed = np.deg2rad(0.01) ** 2 / 8.0 * np.sum(np.abs(coefficient) * orders**2)
-    assert found.upper - found.lower <= 2e-9 * found.lower
-    assert brute <= found.upper
-    assert found.lower <= brute + missed
+    assert bracket.upper - bracket.lower <= 2e-9 * bracket.lower
+    assert brute <= bracket.upper
+    assert bracket.lower <= brute + missed
 
 
 def test_mean_and_variance_are_those_of_the_series() -> None:
@@ -64,32 +64,32 @@ def test_mean_and_variance_are_those_of_the_series() -> None:
 def test_responses_of_different_curves_come_back_in_their_order() -> None:
     # analytic: |f| + |b| of each, with what the counterweights add
     pair = FourierCurves(np.array([0.0, -2.0]), np.array([[1.0, 0.5], [2.0, 0.25]], dtype=complex))
-    other = FourierCurves(np.array([0.0, -2.0]), np.array([[4.0, 1.0]], dtype=complex), 720.0)
+    curves = FourierCurves(np.array([0.0, -2.0]), np.array([[4.0, 1.0]], dtype=complex), 720.0)
     influence = np.array([1.0, 0.5j])
     responses = [
         TurnResponse("a", "N", influence, pair, 1),
-        TurnResponse("b", "N", influence, other, 0),
+        TurnResponse("b", "N", influence, curves, 0),
         TurnResponse("c", "N", 2.0 * influence, pair, 0),
     ]
-    found = peaks(responses, np.array([0.5, 2.0]), 1e-10)
+    bracket = peaks(responses, np.array([0.5, 2.0]), 1e-10)
     exact = [abs(2.5 + 1.0j) + 0.25, abs(4.5 + 1.0j) + 1.0, abs(2.0 + 2.0j) + 0.5]
-    assert found.lower == pytest.approx(exact, rel=1e-9)
-    assert found.upper == pytest.approx(exact, rel=1e-9)
+    assert bracket.lower == pytest.approx(exact, rel=1e-9)
+    assert bracket.upper == pytest.approx(exact, rel=1e-9)
 
 
 def test_the_floor_of_an_ellipse_is_its_counter_rotating_phasor() -> None:
     # analytic: a circle of radius |b| about f, whatever the counterweights
-    found = floor(_response([0, -2], [1.0 + 2.0j, 0.5j]), 1e-9)
-    assert found.circle.radius == pytest.approx(0.5, rel=1e-9)
-    assert found.circle.centre == pytest.approx(1.0 + 2.0j, rel=1e-9)
-    assert found.upper == pytest.approx(0.5, rel=1e-8)
+    lower_limit = floor(_response([0, -2], [1.0 + 2.0j, 0.5j]), 1e-9)
+    assert lower_limit.circle.radius == pytest.approx(0.5, rel=1e-9)
+    assert lower_limit.circle.centre == pytest.approx(1.0 + 2.0j, rel=1e-9)
+    assert lower_limit.upper == pytest.approx(0.5, rel=1e-8)
 
 
 def test_the_floor_of_a_flat_curve_is_half_its_length() -> None:
     # analytic: cos(theta) along a line turns about its middle with amplitude 3
-    found = floor(_response([1, -1], [1.5, 1.5]), 1e-9)
-    assert found.circle.radius == pytest.approx(3.0, rel=1e-9)
-    off = np.abs(np.mod(np.rad2deg(found.angle) + 90.0, 180.0) - 90.0)
+    lower_limit = floor(_response([1, -1], [1.5, 1.5]), 1e-9)
+    assert lower_limit.circle.radius == pytest.approx(3.0, rel=1e-9)
+    off = np.abs(np.mod(np.rad2deg(lower_limit.angle) + 90.0, 180.0) - 90.0)
     assert np.all(off <= 1e-2)
 
 

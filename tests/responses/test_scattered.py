@@ -117,25 +117,25 @@ def test_a_bracket_that_is_broken_off_is_as_wide_as_it_is_known(most: int, monke
     share, width = [0.5] * len(responses), np.full(len(responses), 1e-11)
     fine = peaks_astray(responses, share, u, width)
     monkeypatch.setattr(scattered, "_MOST_NUMBERS", most)
-    told = peaks_astray(responses, share, u, width)
-    assert np.all(told.lower <= fine.upper)
-    assert np.all(told.upper >= fine.lower)
-    assert np.all(told.lower <= told.upper)
-    assert np.max(told.upper / told.lower) > 1.0 + 1e-10
+    value = peaks_astray(responses, share, u, width)
+    assert np.all(value.lower <= fine.upper)
+    assert np.all(value.upper >= fine.lower)
+    assert np.all(value.lower <= value.upper)
+    assert np.max(value.upper / value.lower) > 1.0 + 1e-10
     if most == 20_000:
         # the first step is done
-        assert np.max(told.upper / told.lower) < 1.011
+        assert np.max(value.upper / value.lower) < 1.011
 
 
 def test_a_peak_that_may_be_anything_is_told_by_its_pieces() -> None:
     """Analytic: a bracket as wide as asked, without a cell that is looked at."""
     responses = _responses("vee", True, "continuous")
     u = np.zeros(responses[0].influence.size, dtype=complex)
-    told = peaks_astray(responses, [1e-3] * len(responses), u, np.full(len(responses), 0.25))
+    value = peaks_astray(responses, [1e-3] * len(responses), u, np.full(len(responses), 0.25))
     fine = peaks_astray(responses, [1e-3] * len(responses), u, np.full(len(responses), 1e-9))
-    assert np.all(told.lower <= fine.upper)
-    assert np.all(told.upper >= fine.lower)
-    assert np.all(told.upper <= 1.25 * told.lower + 1e-12)
+    assert np.all(value.lower <= fine.upper)
+    assert np.all(value.upper >= fine.lower)
+    assert np.all(value.upper <= 1.25 * value.lower + 1e-12)
 
 
 def test_masses_that_do_not_scatter_leave_the_peak_as_it_is() -> None:

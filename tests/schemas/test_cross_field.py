@@ -117,16 +117,16 @@ CASES = [
 
 @pytest.mark.parametrize(("model", "body", "paths"), CASES)
 def test_the_field_is_named(model: type[BaseModel], body: dict[str, Any], paths: list[tuple[str | int, ...]]) -> None:
-    found = problems(model, body)
-    assert [path for path, _ in found] == paths
-    assert all(message for _, message in found)
+    actual_problems = problems(model, body)
+    assert [path for path, _ in actual_problems] == paths
+    assert all(message for _, message in actual_problems)
 
 
 def test_the_path_goes_on_from_the_model_that_found_it() -> None:
-    found = problems(
+    actual_problems = problems(
         OptimizeRequest, {"machine": piston(webs=named[:3]), "objective": {"direction_weights": {"x": 0, "y": 0}}}
     )
-    assert [path for path, _ in found] == [
+    assert [path for path, _ in actual_problems] == [
         ("machine", "reciprocating", "webs", 2, "name"),
         ("objective", "direction_weights", "y"),
     ]

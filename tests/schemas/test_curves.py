@@ -64,9 +64,9 @@ def test_it_reads_like_a_tuple_of_floats(numbers: list[float]) -> None:
 @given(st.lists(st.tuples(FINITE, FINITE, FINITE), max_size=4))
 def test_rows_of_an_array_are_curves_in_order(rows: list[tuple[float, ...]]) -> None:
     array = np.array(rows, float).reshape(-1, 3)
-    for each in (array, array[:, None], np.asfortranarray(array)):
-        assert Curve.rows(each) == rows
-        assert {type(curve) for curve in Curve.rows(each)} <= {Curve}
+    for values in (array, array[:, None], np.asfortranarray(array)):
+        assert Curve.rows(values) == rows
+        assert {type(curve) for curve in Curve.rows(values)} <= {Curve}
     assert Curve.rows(np.zeros((2, 0))) == [(), ()]
 
 
@@ -104,11 +104,11 @@ def test_it_cannot_be_changed(numbers: Any) -> None:
     curve = Curve(numbers)
     numbers[0] = 7.0
     assert curve == (1.0, 0.0, 3.0)
-    seen = np.asarray(curve)
-    assert (seen.dtype, seen.shape) == (np.float64, (3,))
-    assert np.signbit(seen[1])
+    actual_curve = np.asarray(curve)
+    assert (actual_curve.dtype, actual_curve.shape) == (np.float64, (3,))
+    assert np.signbit(actual_curve[1])
     with pytest.raises(ValueError, match="read-only"):
-        seen[0] = 7.0
+        actual_curve[0] = 7.0
     with pytest.raises(AttributeError):
         curve.other = 1  # type: ignore[attr-defined]
 
@@ -170,9 +170,9 @@ def test_large_numbers_are_finite() -> None:
 )
 def test_what_is_not_an_array_is_validated_like_a_tuple(value: Any) -> None:
     def outcome(model: type[BaseModel], *, of_json: bool) -> Any:
-        sent = {"force_N": value, "turns": value}
+        fields = {"force_N": value, "turns": value}
         try:
-            read = model.model_validate_json(json.dumps(sent)) if of_json else model.model_validate(sent)
+            read = model.model_validate_json(json.dumps(fields)) if of_json else model.model_validate(fields)
         except ValidationError as error:
             return error.errors(include_url=False)
         return read.model_dump(), read.model_dump(mode="json"), read.model_dump_json()

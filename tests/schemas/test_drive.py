@@ -23,12 +23,12 @@ def refused(**more: Any) -> list[str]:
     """Paths of what is wrong, joined by slashes."""
     with pytest.raises(ValidationError) as caught:
         ReciprocatingMachine.model_validate(copy.deepcopy(BODY) | more)
-    found = []
+    texts = []
     for detail in caught.value.errors():
         problems = detail.get("ctx", {}).get("problems")
         inner = [problem.path for problem in problems] if problems else [()]
-        found += ["/".join(map(str, (*detail["loc"], *path))) for path in inner]
-    return found
+        texts += ["/".join(map(str, (*detail["loc"], *path))) for path in inner]
+    return texts
 
 
 def bearings(*positions: float) -> list[dict[str, Any]]:

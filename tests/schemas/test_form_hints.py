@@ -16,9 +16,9 @@ from schemas.base.units import Unit
 from schemas.match.request import MatchRequest
 from schemas.sweep.request import SweepRequest
 from service.computations.table import COMPUTATIONS
-from tests.schemas.test_json_schema import MODELS, Mode, each_model, schemas_of_all
+from tests.schemas.test_json_schema import MODELS, Mode, model_cases, schemas_of_all
 
-REQUESTS = [*dict.fromkeys(one.request_model for one in COMPUTATIONS.values()), SweepRequest]
+REQUESTS = [*dict.fromkeys(computation.request_model for computation in COMPUTATIONS.values()), SweepRequest]
 #: more fields than a form shows without headings
 MANY = 8
 
@@ -55,20 +55,23 @@ def alternatives(node: dict[str, Any]) -> list[dict[str, Any]]:
 
 def deeper(node: Any) -> Any:
     """Every schema within one, not through references."""
-    for one in node.values() if isinstance(node, dict) else node if isinstance(node, list) else ():
-        yield one
-        yield from deeper(one)
+    for single_node in node.values() if isinstance(node, dict) else node if isinstance(node, list) else ():
+        yield single_node
+        yield from deeper(single_node)
 
 
 def test_one_field_of_every_kind() -> None:
-    found = Held.model_json_schema()["properties"]
-    assert found["bore_m"]["type"] == ["number", "string"]
-    assert found["stroke_m"]["type"] == ["number", "string", "null"]
-    assert (found["radii_m"]["type"], found["radii_m"]["items"]["type"]) == (["array", "null"], ["number", "string"])
-    assert [one.get("type") for one in found["load_kg"]["anyOf"]] == [["number", "string"], None, "null"]
-    assert [one.get("title") for one in found["load_kg"]["anyOf"]] == ["One value", None, "None"]
-    assert [one.get("type") for one in found["table"]["anyOf"]] == [None, "null"]
-    units = {name: one.get("x-unit") for name, one in found.items()}
+    properties = Held.model_json_schema()["properties"]
+    assert properties["bore_m"]["type"] == ["number", "string"]
+    assert properties["stroke_m"]["type"] == ["number", "string", "null"]
+    assert (properties["radii_m"]["type"], properties["radii_m"]["items"]["type"]) == (
+        ["array", "null"],
+        ["number", "string"],
+    )
+    assert [entry.get("type") for entry in properties["load_kg"]["anyOf"]] == [["number", "string"], None, "null"]
+    assert [entry.get("title") for entry in properties["load_kg"]["anyOf"]] == ["One value", None, "None"]
+    assert [entry.get("type") for entry in properties["table"]["anyOf"]] == [None, "null"]
+    units = {name: attribute.get("x-unit") for name, attribute in properties.items()}
     assert units == {
         "bore_m": "m", "stroke_m": "m", "radii_m": "m", "bracket_N": "N", "load_kg": "kg", "table": None, "names": "kg",
     }  # fmt: skip
@@ -100,25 +103,25 @@ def test_the_schema_takes_what_the_model_takes(body: dict[str, Any], valid: bool
         assert valid
 
 
-@each_model
+@model_cases
 @pytest.mark.parametrize("mode", ["validation", "serialization"])
 def test_every_field_has_a_title_a_place_and_its_unit_beside_its_type(model: type[Model], mode: Mode) -> None:
     properties = schemas_of_all(mode)[model].get("properties", {})
-    assert [one["x-order"] for one in properties.values()] == list(range(len(properties)))
-    for name, one in properties.items():
-        assert one["title"][:1].isupper(), name
-        assert "_" not in one["title"], name
-        assert not any(isinstance(part, dict) and "x-unit" in part for part in deeper(one)), name
+    assert [attribute["x-order"] for attribute in properties.values()] == list(range(len(properties)))
+    for name, single_property in properties.items():
+        assert single_property["title"][:1].isupper(), name
+        assert "_" not in single_property["title"], name
+        assert not any(isinstance(part, dict) and "x-unit" in part for part in deeper(single_property)), name
 
 
 @pytest.mark.parametrize("model", REQUESTS, ids=lambda model: model.__name__)
 def test_a_field_has_one_input_unless_there_is_something_to_choose(model: type[Model]) -> None:
     """Alternatives are left where one of them is an object: there is one thing to choose, whether or which."""
     for owner, schema in definitions(model).items():
-        titles = [one["title"] for one in schema.get("properties", {}).values()]
+        titles = [attribute["title"] for attribute in schema.get("properties", {}).values()]
         assert len(set(titles)) == len(titles), owner
-        for name, one in schema.get("properties", {}).items():
-            options = alternatives(one)
+        for name, schema_property in schema.get("properties", {}).items():
+            options = alternatives(schema_property)
             plain = [option for option in options if "type" in option and option["type"] != "null"]
             assert len(plain) <= 1, (owner, name)
             assert not options or any("$ref" in part for part in deeper(options) if isinstance(part, dict)), (
@@ -131,22 +134,25 @@ def test_a_field_has_one_input_unless_there_is_something_to_choose(model: type[M
 def test_large_models_have_headings(model: type[Model]) -> None:
     for owner, schema in definitions(model).items():
         fields = schema.get("properties", {})
-        groups = [one.get("x-group") for one in fields.values()]
+        groups = [field.get("x-group") for field in fields.values()]
         if len(fields) > MANY or owner in GROUPS:
             assert None not in groups, owner
         # a heading stands once: its fields follow one another
-        assert len(set(groups)) == 1 + sum(one != other for one, other in pairwise(groups)) or not groups, owner
+        assert (
+            len(set(groups)) == 1 + sum(first != second_second for first, second_second in pairwise(groups))
+            or not groups
+        ), owner
 
 
 def test_headings_name_fields_that_there_are() -> None:
-    known = {
+    properties = {
         model.__name__: set(model.model_json_schema()["properties"]) for model in MODELS if model.__name__ in GROUPS
     }
-    assert set(known) == set(GROUPS)
+    assert set(properties) == set(GROUPS)
     for model, groups in GROUPS.items():
         listed = [field for fields in groups.values() for field in fields]
         assert len(set(listed)) == len(listed), model
-        assert model == "Rotor" or set(listed) <= known[model], model
+        assert model == "Rotor" or set(listed) <= properties[model], model
 
 
 def test_titles_are_those_of_a_person() -> None:

@@ -24,11 +24,11 @@ def refused(pressure: dict[str, Any], **rest: Any) -> dict[str, str]:
     """What is said, by path from the machine."""
     with pytest.raises(ValidationError) as caught:
         ReciprocatingMachine.model_validate(with_pressure(pressure, **rest))
-    found = {}
+    messages = {}
     for error in caught.value.errors():
         problems = error.get("ctx", {}).get("problems", [((), error["msg"])])
-        found |= {"/".join(map(str, (*error["loc"], *path))): message for path, message in problems}
-    return found
+        messages |= {"/".join(map(str, (*error["loc"], *path))): message for path, message in problems}
+    return messages
 
 
 def head(changes: dict[str, Any] | None = None, **rest: Any) -> dict[str, Any]:
@@ -62,9 +62,9 @@ REFUSED = [
 
 @pytest.mark.parametrize(("pressure", "field", "words"), REFUSED)
 def test_a_refusal_names_the_field(pressure: dict[str, Any], field: str, words: str) -> None:
-    found = refused(pressure)
-    assert list(found) == [f"{AT}/{field}"]
-    assert words in found[f"{AT}/{field}"]
+    refusal = refused(pressure)
+    assert list(refusal) == [f"{AT}/{field}"]
+    assert words in refusal[f"{AT}/{field}"]
 
 
 @pytest.mark.parametrize(

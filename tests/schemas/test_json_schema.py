@@ -48,24 +48,24 @@ SUFFIXES = {
 def all_models() -> list[type[Model]]:
     for module in pkgutil.walk_packages(schemas.__path__, "schemas."):
         importlib.import_module(module.name)
-    found, rest = [], [Model]
+    kinds, rest = [], [Model]
     while rest:
         children = [c for c in rest.pop().__subclasses__() if c.__module__.startswith("schemas.")]
-        found += children
+        kinds += children
         rest += children
-    return sorted(set(found), key=lambda model: model.__name__)
+    return sorted(set(kinds), key=lambda model: model.__name__)
 
 
 MODELS = all_models()
-each_model = pytest.mark.parametrize("model", MODELS, ids=lambda model: model.__name__)
+model_cases = pytest.mark.parametrize("model", MODELS, ids=lambda model: model.__name__)
 
 
 @cache
 def schemas_of_all(mode: Mode) -> dict[type[Model], Any]:
     """The schema of every model, made together: what they share is made once."""
-    references, made = models_json_schema([(model, mode) for model in MODELS])
+    references, fields = models_json_schema([(model, mode) for model in MODELS])
     names = {model: reference["$ref"].rpartition("/")[2] for (model, _), reference in references.items()}
-    return {model: made["$defs"][names[model]] for model in MODELS}
+    return {model: fields["$defs"][names[model]] for model in MODELS}
 
 
 def unit_of(name: str) -> str | None:
@@ -93,7 +93,7 @@ def of_a_request(model: type[Model]) -> bool:
     )
 
 
-@each_model
+@model_cases
 def test_every_field_is_described_with_an_example(model: type[Model]) -> None:
     poor = [
         name
@@ -104,7 +104,7 @@ def test_every_field_is_described_with_an_example(model: type[Model]) -> None:
 
 
 @pytest.mark.parametrize("mode", ["validation", "serialization"])
-@each_model
+@model_cases
 def test_every_physical_field_carries_its_unit(model: type[Model], mode: Mode) -> None:
     properties = schemas_of_all(mode)[model].get("properties", {})
     names = [field.alias or name for name, field in model.model_fields.items()]
@@ -124,7 +124,7 @@ def test_the_schema_of_a_request_is_a_json_schema(request_model: type[BaseModel]
         assert part.get("additionalProperties", False) is False
 
 
-@each_model
+@model_cases
 def test_examples_are_valid(model: type[Model]) -> None:
     """Of requests all, of answers those of single values."""
     for field in model.model_fields.values():

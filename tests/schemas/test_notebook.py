@@ -21,7 +21,7 @@ from service.documents.examples import bodies
 BODY: dict[str, Any] = bodies("")["v90-equal"]
 
 
-class Found(Answer):
+class Specimen(Answer):
     """An answer with a field of every kind."""
 
     mass_kg: float = Field(description="a number")
@@ -40,16 +40,18 @@ class Curved(Answer):
 
 
 def test_curves_are_shown_by_their_length() -> None:
-    found = Curved(version="1", force_N=range(360), empty=())
-    assert repr(found) == "Curved(version='1', force_N=[360])"
-    assert "<th>force_N</th><td>360 numbers</td>" in found._repr_html_()
-    assert "empty" not in found._repr_html_()
+    value = Curved(version="1", force_N=range(360), empty=())
+    assert repr(value) == "Curved(version='1', force_N=[360])"
+    assert "<th>force_N</th><td>360 numbers</td>" in value._repr_html_()
+    assert "empty" not in value._repr_html_()
 
 
 def test_a_line_holds_figures_and_no_series() -> None:
-    found = Found(version="1", mass_kg=1 / 3, series=(1.0,) * 1000, words="x" * 1000, part=Model())
-    assert repr(found) == str(found)
-    assert repr(found) == f"Found(version='1', mass_kg=0.333333, series=[1000], words='{'x' * 40}...', part=Model(...))"
+    example = Specimen(version="1", mass_kg=1 / 3, series=(1.0,) * 1000, words="x" * 1000, part=Model())
+    assert repr(example) == str(example)
+    assert (
+        repr(example) == f"Found(version='1', mass_kg=0.333333, series=[1000], words='{'x' * 40}...', part=Model(...))"
+    )
 
 
 @pytest.mark.parametrize("front", [ParetoFront, CountFront, TradedFront])

@@ -98,7 +98,7 @@ CASES: list[tuple[type[Model], dict[str, Any], dict[str, list[Any]]]] = [
 ]
 
 
-@pytest.mark.parametrize(("model", "always", "fields"), CASES, ids=lambda one: getattr(one, "__name__", ""))
+@pytest.mark.parametrize(("model", "always", "fields"), CASES, ids=lambda value: getattr(value, "__name__", ""))
 def test_the_schema_refuses_what_the_rules_refuse(
     model: type[Model], always: dict[str, Any], fields: dict[str, list[Any]]
 ) -> None:
@@ -112,6 +112,10 @@ def test_the_schema_refuses_what_the_rules_refuse(
             accepted, why = False, str(error)
         else:
             accepted, why = True, ""
-        assert validator.is_valid(body) is accepted, (body, why, [each.message for each in validator.iter_errors(body)])
+        assert validator.is_valid(body) is accepted, (
+            body,
+            why,
+            [validator_error.message for validator_error in validator.iter_errors(body)],
+        )
         verdicts.add(accepted)
     assert verdicts == {True, False}

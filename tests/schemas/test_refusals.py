@@ -79,7 +79,7 @@ def leaves(value: Any, path: tuple[str | int, ...] = ()) -> list[tuple[tuple[str
     """Every value in a body with the way to it."""
     if isinstance(value, dict | list):
         inner = value.items() if isinstance(value, dict) else enumerate(value)
-        return [leaf for key, one in inner for leaf in leaves(one, (*path, key))]
+        return [leaf for key, value in inner for leaf in leaves(value, (*path, key))]
     return [(path, value)]
 
 

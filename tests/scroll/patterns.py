@@ -26,9 +26,9 @@ def even(count: int, **body: Any) -> PinLoadsAnswer:
     return ask(**{"pin_count": count, "pin_circle_radius_m": 0.06, **body})
 
 
-def given_pins(angles_deg: Any, **each: Any) -> list[dict[str, Any]]:
+def pins_at(angles_deg: Any, **options: Any) -> list[dict[str, Any]]:
     """Pins at these angles; every other field is one value for all, or a list."""
-    fields = {"radius_m": 0.06, **each}
+    fields = {"radius_m": 0.06, **options}
     return [
         {"angle_deg": angle, **{name: value[i] if isinstance(value, list) else value for name, value in fields.items()}}
         for i, angle in enumerate(angles_deg)

@@ -14,10 +14,10 @@ from optimizer.numerics.arrays import Real
 from optimizer.pins.answer import pin_loads
 from optimizer.pins.loads import levers
 from schemas.scroll.pin_loads import PinLoadsAnswer, PinLoadsRequest
-from tests.scroll.patterns import TABLE, TORQUE, ask, even, given_pins, loads, random_pins, seeds
+from tests.scroll.patterns import TABLE, TORQUE, ask, even, loads, pins_at, random_pins, seeds
 
 RIGID = {"type": "rigid"}
-UNEVEN = given_pins([0, 110, 250], radius_m=0.05)
+UNEVEN = pins_at([0, 110, 250], radius_m=0.05)
 COMPARISON: dict[str, Any] = {
     "speed_rpm": 3000,
     "pin_diameter_m": 0.008,
@@ -40,7 +40,7 @@ def test_two_pins_not_on_one_line_run_on_a_rigid_bearing_analytic() -> None:
 
     The source (Liu, Zhao and Li 2006, section 2) says that two pins not on one line run, with uneven load.
     """
-    pins = given_pins([0, 90], radius_m=0.05)
+    pins = pins_at([0, 90], radius_m=0.05)
     answer = ask(pins=pins, drive_bearing=RIGID)
     assert answer.peak_N == pytest.approx(240.0, rel=1e-12)
     assert answer.dead_points_deg == ()
@@ -90,7 +90,7 @@ def test_least_strain_energy_with_the_bearing_independent(seed: int, count: int,
 
 
 def test_an_elastic_bearing_is_between_free_and_rigid_analytic() -> None:
-    pins = given_pins([0, 110, 250], stiffness_N_per_m=1e7)
+    pins = pins_at([0, 110, 250], stiffness_N_per_m=1e7)
     soft, stiff = (ask(pins=pins, drive_bearing=elastic(k)) for k in (1e-4, 1e17))
     np.testing.assert_allclose(loads(soft), loads(ask(pins=pins)), rtol=0, atol=1e-7)
     np.testing.assert_allclose(loads(stiff), loads(ask(pins=pins, drive_bearing=RIGID)), rtol=0, atol=1e-6)
@@ -114,7 +114,7 @@ def test_pins_on_a_line_through_the_centre_have_dead_points_analytic(bearing: di
 @pytest.mark.parametrize("bearing", [RIGID, elastic(3e7)])
 def test_small_clearances_return_the_elastic_answer_analytic(bearing: dict[str, Any]) -> None:
     def answer(clearance: float) -> PinLoadsAnswer:
-        pins = given_pins([0, 80, 200], stiffness_N_per_m=1e7, clearance_m=clearance)
+        pins = pins_at([0, 80, 200], stiffness_N_per_m=1e7, clearance_m=clearance)
         return ask(pins=pins, drive_bearing=bearing)
 
     near, none = answer(1e-14), answer(0.0)
@@ -162,14 +162,14 @@ def test_the_keys_hold_the_ring_analytic(seed: int) -> None:
     rng = np.random.default_rng(seed)
     orbit, reach, mass, axis, omega = rng.uniform(0.1, 2.0, (5, 4))
     angle, torque = rng.uniform(0.0, 6.0, (4, 9)), rng.uniform(-5.0, 5.0, (4, 9))
-    found = keys(Oldham(orbit, reach, mass, axis, omega), torque, angle)
+    value = keys(Oldham(orbit, reach, mass, axis, omega), torque, angle)
     across = (axis[:, None] - angle, orbit[:, None] * omega[:, None])
     acceleration = -across[1] * omega[:, None] * np.cos(across[0])
-    np.testing.assert_allclose(np.sum(found.scroll, axis=-1), mass[:, None] * acceleration, atol=1e-12)
-    couple = reach[:, None] * (found.scroll[..., 0] - found.scroll[..., 1])
+    np.testing.assert_allclose(np.sum(value.scroll, axis=-1), mass[:, None] * acceleration, atol=1e-12)
+    couple = reach[:, None] * (value.scroll[..., 0] - value.scroll[..., 1])
     np.testing.assert_allclose(couple, torque, atol=1e-12)
-    np.testing.assert_allclose(2.0 * reach[:, None] * found.frame, torque, atol=1e-12)
-    np.testing.assert_allclose(np.hypot(found.frame_speed, found.scroll_speed), across[1] + 0 * angle, atol=1e-12)
+    np.testing.assert_allclose(2.0 * reach[:, None] * value.frame, torque, atol=1e-12)
+    np.testing.assert_allclose(np.hypot(value.frame_speed, value.scroll_speed), across[1] + 0 * angle, atol=1e-12)
 
 
 @pytest.mark.parametrize(
@@ -186,10 +186,10 @@ def test_bad_input_is_named(body: dict[str, Any], path: tuple[Any, ...]) -> None
     whole = {"pin_count": 3, "pin_circle_radius_m": 0.06} if "pins" not in body else {}
     with pytest.raises(ValidationError) as raised:
         PinLoadsRequest.model_validate({"rotation_torque_Nm": TORQUE, **whole, **body})
-    found = [
+    locs = [
         (*error["loc"], *problem.path)
         for error in raised.value.errors()
         for problem in error.get("ctx", {}).get("problems", [()])
         if problem
     ] + [error["loc"] for error in raised.value.errors()]
-    assert path in found
+    assert path in locs

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 
-from tests.scroll.patterns import ask, given_pins, loads, seeds
+from tests.scroll.patterns import ask, loads, pins_at, seeds
 
 MICRON = 1e-6
 STIFFNESS = 2e7
@@ -17,7 +17,7 @@ def random_body(seed: int) -> dict[str, Any]:
     rng = np.random.default_rng(seed)
     count, line = int(rng.integers(2, 6)), bool(rng.integers(0, 2))
     along = 15.0 * float(rng.integers(0, 12))
-    pins = given_pins(
+    pins = pins_at(
         along + 180.0 * rng.integers(0, 2, count) if line else rng.uniform(0.0, 360.0, count),
         radius_m=rng.uniform(0.03, 0.09, count).tolist(),
         stiffness_N_per_m=(10.0 ** rng.uniform(6.0, 8.0, count)).tolist(),
@@ -50,7 +50,7 @@ def test_no_sample_is_above_its_peak_analytic(seed: int) -> None:
 @pytest.mark.parametrize("along", [0.0, 15.0, 37.123])
 def test_an_error_strains_pins_at_a_dead_point_without_torque_analytic(along: float) -> None:
     """Two springs in a row carry k eps / 2 where the eccentric lies along them; elsewhere the scroll turns by eps."""
-    pins = given_pins([along, along + 180.0], stiffness_N_per_m=STIFFNESS, eccentricity_error_m=[4.0 * MICRON, 0.0])
+    pins = pins_at([along, along + 180.0], stiffness_N_per_m=STIFFNESS, eccentricity_error_m=[4.0 * MICRON, 0.0])
     answer = ask(pins=pins, rotation_torque_Nm=0.0, angles={"step_deg": 1})
     expected = STIFFNESS * 2.0 * MICRON
     assert answer.dead_points_deg == pytest.approx((along, along + 180.0), rel=1e-12)
@@ -66,7 +66,7 @@ def test_an_error_strains_pins_at_a_dead_point_without_torque_analytic(along: fl
 
 
 def test_pins_without_a_load_have_their_peak_at_angle_0_analytic() -> None:
-    pins = given_pins([0.0, 120.0, 240.0], stiffness_N_per_m=STIFFNESS, clearance_m=MICRON)
+    pins = pins_at([0.0, 120.0, 240.0], stiffness_N_per_m=STIFFNESS, clearance_m=MICRON)
     answer = ask(pins=pins, rotation_torque_Nm=0.0)
     assert [(pin.peak_N, pin.peak_angle_deg) for pin in answer.pins] == [(0.0, 0.0)] * 3
 
@@ -76,7 +76,7 @@ def test_pins_without_a_load_have_their_peak_at_angle_0_analytic() -> None:
 @pytest.mark.parametrize("clearance", [0.0, MICRON])
 def test_levers_below_all_numbers_hold_no_torque_analytic(angle: float, bearing: str, clearance: float) -> None:
     """Regression: a torque over the squares of such levers was beyond all numbers."""
-    pins = given_pins([angle, 180.0], stiffness_N_per_m=STIFFNESS, clearance_m=clearance)
+    pins = pins_at([angle, 180.0], stiffness_N_per_m=STIFFNESS, clearance_m=clearance)
     answer = ask(pins=pins, drive_bearing={"type": bearing})
     assert answer.dead_points_deg[0] == pytest.approx(0.0, abs=1e-9)
     assert answer.pins[0].load_N[0] is None

@@ -8,10 +8,10 @@ from pydantic import ValidationError
 
 from optimizer.pins.loads import gas_torques
 from schemas.scroll.pin_loads import MAX_PINS, PinLoadsAnswer, PinLoadsRequest
-from tests.scroll.patterns import TABLE, TORQUE, ask, even, given_pins, loads
+from tests.scroll.patterns import TABLE, TORQUE, ask, even, loads, pins_at
 
 EVEN: dict[str, Any] = {"pin_count": 3, "pin_circle_radius_m": 0.05, "rotation_torque_Nm": 12.5}
-PINS: dict[str, Any] = {"pins": given_pins([0, 120, 240]), "rotation_torque_Nm": 12.5}
+PINS: dict[str, Any] = {"pins": pins_at([0, 120, 240]), "rotation_torque_Nm": 12.5}
 GAS: dict[str, Any] = {"pin_count": 3, "pin_circle_radius_m": 0.05, "tangential_gas_force_N": 5000}
 
 
@@ -38,12 +38,12 @@ def test_quantities_with_units() -> None:
 
 
 def test_a_table_is_linear_and_periodic_analytic() -> None:
-    found = np.array(even(3, rotation_torque_Nm=TABLE).rotation_torque_Nm)
+    rotation_torque_Nm = np.array(even(3, rotation_torque_Nm=TABLE).rotation_torque_Nm)
     # from 260 degrees the torque goes back to that of 0 over 100 degrees
-    assert found[[0, 35, 70, 115, 260, 310]] == pytest.approx([12, 16, 20, 9, 15, 13.5])
+    assert rotation_torque_Nm[[0, 35, 70, 115, 260, 310]] == pytest.approx([12, 16, 20, 9, 15, 13.5])
     late = {"angle_deg": [90, 270], "torque_Nm": [1, 3]}
-    found = np.array(even(3, rotation_torque_Nm=late).rotation_torque_Nm)
-    assert found[[0, 45, 90, 180, 270, 315]] == pytest.approx([2, 1.5, 1, 2, 3, 2.5])
+    actual_rotation_torque_Nm = np.array(even(3, rotation_torque_Nm=late).rotation_torque_Nm)
+    assert actual_rotation_torque_Nm[[0, 45, 90, 180, 270, 315]] == pytest.approx([2, 1.5, 1, 2, 3, 2.5])
 
 
 def test_a_repeated_end_changes_nothing_analytic() -> None:
@@ -95,17 +95,17 @@ REFUSED = [
     pytest.param(GAS, ("orbit_radius_m",), id="no orbit"),
     pytest.param({**EVEN, "orbit_radius_m": 0.005}, ("orbit_radius_m",), id="an orbit for nothing"),
     pytest.param({**EVEN, "pin_count": MAX_PINS, "angles": {"step_deg": 0.1}}, ("angles", "step_deg"), id="too many"),
-    pytest.param({**PINS, "pins": given_pins([0, 120, 480])}, ("pins", 2, "angle_deg"), id="coincident pins"),
+    pytest.param({**PINS, "pins": pins_at([0, 120, 480])}, ("pins", 2, "angle_deg"), id="coincident pins"),
     pytest.param(
-        {**PINS, "pins": given_pins([0, 120, 240], stiffness_N_per_m=[None, 1e7, 1e7])},
+        {**PINS, "pins": pins_at([0, 120, 240], stiffness_N_per_m=[None, 1e7, 1e7])},
         ("pins", 0, "stiffness_N_per_m"),
         id="a stiffness is missing",
     ),
     pytest.param(
-        {**PINS, "pins": given_pins([0], clearance_m=1e-5)}, ("pins", 0, "stiffness_N_per_m"), id="play without any"
+        {**PINS, "pins": pins_at([0], clearance_m=1e-5)}, ("pins", 0, "stiffness_N_per_m"), id="play without any"
     ),
     pytest.param(
-        {**PINS, "pins": given_pins([0], eccentricity_error_m=-1e-5)},
+        {**PINS, "pins": pins_at([0], eccentricity_error_m=-1e-5)},
         ("pins", 0, "stiffness_N_per_m"),
         id="an error without any",
     ),
@@ -131,12 +131,12 @@ REFUSED = [
 def test_the_field_is_named(body: dict[str, Any], path: tuple[str | int, ...]) -> None:
     with pytest.raises(ValidationError) as caught:
         PinLoadsRequest.model_validate(body)
-    found = [
+    values = [
         (*error["loc"], *problem.path)
         for error in caught.value.errors()
         for problem in error.get("ctx", {}).get("problems", ())
     ]
-    assert found == [path]
+    assert values == [path]
 
 
 @pytest.mark.parametrize(
@@ -148,10 +148,10 @@ def test_the_field_is_named(body: dict[str, Any], path: tuple[str | int, ...]) -
         pytest.param({**EVEN, "pin_count": 10**9}, "pin_count", id="very many pins"),
         pytest.param({**EVEN, "pin_circle_radius_m": 0}, "pin_circle_radius_m", id="radius 0"),
         pytest.param({**PINS, "pins": []}, "pins", id="empty"),
-        pytest.param({**PINS, "pins": given_pins([0, 120, 240], radius_m=0)}, "radius_m", id="pins at the centre"),
-        pytest.param({**PINS, "pins": given_pins([0], stiffness_N_per_m=-1)}, "stiffness_N_per_m", id="stiffness < 0"),
-        pytest.param({**PINS, "pins": given_pins([0], stiffness_N_per_m=0)}, "stiffness_N_per_m", id="no stiffness"),
-        pytest.param({**PINS, "pins": given_pins([0], clearance_m=-1e-6)}, "clearance_m", id="clearance < 0"),
+        pytest.param({**PINS, "pins": pins_at([0, 120, 240], radius_m=0)}, "radius_m", id="pins at the centre"),
+        pytest.param({**PINS, "pins": pins_at([0], stiffness_N_per_m=-1)}, "stiffness_N_per_m", id="stiffness < 0"),
+        pytest.param({**PINS, "pins": pins_at([0], stiffness_N_per_m=0)}, "stiffness_N_per_m", id="no stiffness"),
+        pytest.param({**PINS, "pins": pins_at([0], clearance_m=-1e-6)}, "clearance_m", id="clearance < 0"),
         pytest.param(table([0, 400], [1, 2]), "angle_deg", id="beyond a turn"),
         pytest.param(table([-1, 90], [1, 2]), "angle_deg", id="before the turn"),
         pytest.param(table([0], [1]), "angle_deg", id="one entry"),
@@ -175,8 +175,8 @@ def test_out_of_range(body: dict[str, Any], place: str) -> None:
 def test_nothing_overflows_at_the_ends_of_the_ranges(radius: float, torque: float) -> None:
     for pattern in (
         {"pin_count": 5, "pin_circle_radius_m": radius},
-        {"pins": given_pins([0, 100, 200], radius_m=radius)},
-        {"pins": given_pins([0, 100, 200], radius_m=[radius, 1.0, radius])},
+        {"pins": pins_at([0, 100, 200], radius_m=radius)},
+        {"pins": pins_at([0, 100, 200], radius_m=[radius, 1.0, radius])},
     ):
         answer = ask(**pattern, rotation_torque_Nm=torque)
         assert np.all(np.isfinite(loads(answer)))

@@ -31,8 +31,11 @@ def post(client: TestClient) -> Callable[..., Any]:
     """Post raw bytes as JSON."""
 
     def send(path: str, content: Any, **headers: str) -> Any:
-        given = {"Content-Type": "application/json", **{key.replace("_", "-"): value for key, value in headers.items()}}
-        return client.post(path, content=content, headers=given)
+        fields = {
+            "Content-Type": "application/json",
+            **{key.replace("_", "-"): value for key, value in headers.items()},
+        }
+        return client.post(path, content=content, headers=fields)
 
     return send
 

@@ -9,7 +9,7 @@ from service.guard.rates import Rate, parsed
 
 def emitted() -> set[tuple[int, str]]:
     """Status and kind of all problems of the tables, by describing an exception of each type."""
-    found = set()
+    names = set()
     limit = parsed("3/minute")
     assert limit is not None
     rate = Rate("key", limit, 0, 1)
@@ -24,6 +24,6 @@ def emitted() -> set[tuple[int, str]]:
             "full": False,
         }
         vars(error).update(anything, status_code=404, detail="", headers=None, _errors=(), rate=rate)
-        said = problem(describe(error), "")
-        found.add((said.status, said.type.removeprefix("/problems/")))
-    return found
+        program = problem(describe(error), "")
+        names.add((program.status, program.type.removeprefix("/problems/")))
+    return names

@@ -56,7 +56,7 @@ def test_codings(header: str, taken: bool) -> None:
     ],
 )
 def test_the_coding_of_an_answer(accepted: list[str], coding: str | None) -> None:
-    request = Request({"type": "http", "headers": [(b"accept-encoding", each.encode()) for each in accepted]})
+    request = Request({"type": "http", "headers": [(b"accept-encoding", text.encode()) for text in accepted]})
     assert coding_of(request) == coding
 
 
@@ -73,5 +73,5 @@ def test_the_coding_of_an_answer(accepted: list[str], coding: str | None) -> Non
     ],
 )
 def test_the_format_of_rows(accept: list[str], name: str | None) -> None:
-    request = Request({"type": "http", "headers": [(b"accept", each.encode()) for each in accept]})
-    assert negotiate(request, {known.media_type.split(";")[0]: each for each, known in FORMATS.items()}) == name
+    request = Request({"type": "http", "headers": [(b"accept", text.encode()) for text in accept]})
+    assert negotiate(request, {entry.media_type.split(";")[0]: key for key, entry in FORMATS.items()}) == name

@@ -57,10 +57,10 @@ def _possible(request: OptimizeRequest) -> Iterator[str]:
 
 # independent: pydantic's own writer, of floats made one by one
 def _same(answer: Answer) -> bytes:
-    sent = json_bytes(answer)
-    assert sent == answer.model_dump_json().encode()
-    assert json.loads(sent) == answer.model_dump(mode="json")
-    return sent
+    actual_json_bytes = json_bytes(answer)
+    assert actual_json_bytes == answer.model_dump_json().encode()
+    assert json.loads(actual_json_bytes) == answer.model_dump(mode="json")
+    return actual_json_bytes
 
 
 @pytest.mark.parametrize("name", night.part(2, bodies("")))
@@ -68,8 +68,8 @@ def test_every_example_with_all_outputs(name: str) -> None:
     request = OptimizeRequest.model_validate(bodies("")[name])
     outputs = tuple(_possible(request))
     assert set(outputs) & {"hodograph", "pin_loads"}
-    shown = request.model_copy(update={"outputs": outputs})
-    answer = optimize(shown)
+    variant = request.model_copy(update={"outputs": outputs})
+    answer = optimize(variant)
     assert b'"angle_deg":[0.0,' in _same(answer)
     _same(optimize(request))
     _same(analyze({"machine": bodies("")[name]["machine"], "outputs": outputs}))

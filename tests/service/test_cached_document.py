@@ -20,31 +20,31 @@ def _request() -> Any:
 
 def test_it_is_made_once_however_many_ask_and_the_loop_goes_on() -> None:
     go = threading.Event()
-    made: list[tuple[str, bool]] = []
+    values: list[tuple[str, bool]] = []
 
     def make(name: str) -> CachedDocument:
-        made.append((name, threading.current_thread() is threading.main_thread()))
+        values.append((name, threading.current_thread() is threading.main_thread()))
         assert go.wait(60)
         return CachedDocument(_LONG, "text/plain")
 
     shelf, request = Shelf(make), _request()
 
-    async def asked() -> list[CachedDocument]:
+    async def story() -> list[CachedDocument]:
         waiting = [asyncio.ensure_future(shelf.take(request, "it")) for _ in range(5)]
-        while not made:
+        while not values:
             await asyncio.sleep(0.001)
         go.set()
         return [*await asyncio.gather(*waiting), await shelf.take(request, "it")]
 
-    first, *others = asyncio.run(asked())
-    assert made == [("it", False)]
-    assert all(each is first for each in others)
+    first, *documents = asyncio.run(story())
+    assert values == [("it", False)]
+    assert all(document is first for document in documents)
 
 
 @pytest.mark.parametrize(("content", "packed"), [(_LONG, True), (b"short", False)])
 def test_it_is_compressed_before_it_is_sent(content: bytes, packed: bool) -> None:
-    found = Shelf[str](lambda _: CachedDocument(content, "text/plain")).document("it")
-    assert ("compressed" in vars(found)) == packed
+    document = Shelf[str](lambda _: CachedDocument(content, "text/plain")).document("it")
+    assert ("compressed" in vars(document)) == packed
 
 
 def test_what_could_not_be_made_is_tried_again() -> None:

@@ -25,8 +25,8 @@ from tests.night import part
 ROOT = Path(__file__).parents[2]
 
 
-def run(*arguments: str, given: bytes | None = None) -> Result:
-    return CliRunner().invoke(app, arguments, input=given)
+def run(*arguments: str, stdin: bytes | None = None) -> Result:
+    return CliRunner().invoke(app, arguments, input=stdin)
 
 
 def refused(result: Result) -> list[str]:
@@ -85,13 +85,13 @@ def test_json_is_the_answer_of_the_service(client: TestClient, file: Path, comma
 
 
 def test_standard_input(body: dict[str, Any]) -> None:
-    assert run("optimize", "-", given=json.dumps(body).encode()).exit_code == 0
-    assert run("analyze", "-", given=b"\xef\xbb\xbf" + json.dumps(body).encode()).exit_code == 0
+    assert run("optimize", "-", stdin=json.dumps(body).encode()).exit_code == 0
+    assert run("analyze", "-", stdin=b"\xef\xbb\xbf" + json.dumps(body).encode()).exit_code == 0
 
 
 def test_infeasible(body: dict[str, Any]) -> None:
     body["objective"] = {"force_ceiling_N": 1}
-    result = run("optimize", "-", given=json.dumps(body).encode())
+    result = run("optimize", "-", stdin=json.dumps(body).encode())
     assert result.exit_code == 1
     for text in (
         "infeasible",
@@ -101,7 +101,7 @@ def test_infeasible(body: dict[str, Any]) -> None:
         "best compromise",
     ):
         assert text in result.stdout
-    assert json.loads(run("optimize", "-", "--json", given=json.dumps(body).encode()).stdout)["status"] == "infeasible"
+    assert json.loads(run("optimize", "-", "--json", stdin=json.dumps(body).encode()).stdout)["status"] == "infeasible"
 
 
 def test_inaccurate(monkeypatch: pytest.MonkeyPatch, file: Path) -> None:
@@ -118,26 +118,26 @@ def test_inaccurate(monkeypatch: pytest.MonkeyPatch, file: Path) -> None:
 
 
 def test_outputs_replace_those_of_the_file(body: dict[str, Any]) -> None:
-    given = json.dumps({**body, "outputs": ["orders"]}).encode()
-    first = run("analyze", "-", given=given)
+    passage = json.dumps({**body, "outputs": ["orders"]}).encode()
+    first = run("analyze", "-", stdin=passage)
     assert "Orders" in first.stdout
     assert "First order" not in first.stdout
-    second = run("analyze", "-", "--output", "residual", "--output", "stages", "--output", "hodograph", given=given)
+    second = run("analyze", "-", "--output", "residual", "--output", "stages", "--output", "hodograph", stdin=passage)
     assert second.exit_code == 0
     for text in ("First order", "balancing stages", "VIII", "Over 360 shaft angles", "largest force, N"):
         assert text in second.stdout
     assert "order 4" not in second.stdout
-    assert "Orders" in run("optimize", "-", "--output", "orders", given=given).stdout
+    assert "Orders" in run("optimize", "-", "--output", "orders", stdin=passage).stdout
 
 
 def test_analyze_prints_what_is_fitted(body: dict[str, Any]) -> None:
     body["counterweights"] = [{"web": "1a", "mass_kg": 12.5, "angle_deg": 180}]
-    result = run("analyze", "-", given=json.dumps(body).encode())
+    result = run("analyze", "-", stdin=json.dumps(body).encode())
     assert result.exit_code == 0
     assert "12.5" in result.stdout
     assert "total mass of the counterweights, kg │ 12.5" in result.stdout
     del body["counterweights"]
-    assert "total mass" not in run("analyze", "-", given=json.dumps(body).encode()).stdout
+    assert "total mass" not in run("analyze", "-", stdin=json.dumps(body).encode()).stdout
 
 
 @pytest.mark.parametrize("name", part(3, names()))
@@ -149,7 +149,7 @@ def test_every_example_has_tables(name: str) -> None:
 def test_names_are_no_markup(body: dict[str, Any]) -> None:
     body["machine"]["name"] = "[red]machine[/red]"
     body["machine"]["webs"][0]["name"] = "[bold]a[/]"
-    result = run("optimize", "-", given=json.dumps(body).encode())
+    result = run("optimize", "-", stdin=json.dumps(body).encode())
     assert "[red]machine[/red]: optimal" in result.stdout
     assert "[bold]a[/]" in result.stdout
 
@@ -158,15 +158,15 @@ def test_names_are_no_markup(body: dict[str, Any]) -> None:
 def test_bad_input(tmp_path: Path, body: dict[str, Any], command: str) -> None:
     assert refused(run(command, str(tmp_path / "nothing.json")))[0].endswith("No such file or directory")
     assert refused(run(command, str(tmp_path)))[0].endswith("Is a directory")
-    assert refused(run(command, "-", given=b"")) == ["standard input is not JSON: there is no JSON"]
-    assert refused(run(command, "-", given=b"\xff")) == ["standard input is not JSON: not UTF-8 at byte 0"]
-    assert refused(run(command, "-", given=b"[" * 100_000)) == ["standard input is not JSON: nested too deeply"]
-    (line,) = refused(run(command, "-", given=b"{\n  nonsense"))
+    assert refused(run(command, "-", stdin=b"")) == ["standard input is not JSON: there is no JSON"]
+    assert refused(run(command, "-", stdin=b"\xff")) == ["standard input is not JSON: not UTF-8 at byte 0"]
+    assert refused(run(command, "-", stdin=b"[" * 100_000)) == ["standard input is not JSON: nested too deeply"]
+    (line,) = refused(run(command, "-", stdin=b"{\n  nonsense"))
     assert "line 2, column 3" in line
-    assert refused(run(command, "-", given=b"[]")) == ["the request: must be an object"]
+    assert refused(run(command, "-", stdin=b"[]")) == ["the request: must be an object"]
     body["machine"]["throws"][0]["crank_radius_m"] = -1
     del body["machine"]["webs"][0]["name"]
-    assert refused(run(command, "-", given=json.dumps(body).encode())) == [
+    assert refused(run(command, "-", stdin=json.dumps(body).encode())) == [
         "/machine/webs/0/name: this field is required",
         "/machine/throws/0/crank_radius_m: must be at least 1e-12",
     ]
@@ -176,21 +176,21 @@ def test_the_wording_is_that_of_the_service(client: TestClient, body: dict[str, 
     body["machine"]["kind"] = "turbine"
     body["angles"] = {"step_deg": "7 deg"}
     errors = client.post("/v1/optimize", json=body).json()["errors"]
-    lines = refused(run("optimize", "-", given=json.dumps(body).encode()))
+    lines = refused(run("optimize", "-", stdin=json.dumps(body).encode()))
     assert lines == [f"{error['pointer']}: {error['message']}" for error in errors]
 
 
 def test_many_errors_end_with_a_note(body: dict[str, Any]) -> None:
-    lines = refused(run("optimize", "-", given=json.dumps({**body, **{f"x{k}": 0 for k in range(99)}}).encode()))
+    lines = refused(run("optimize", "-", stdin=json.dumps({**body, **{f"x{k}": 0 for k in range(99)}}).encode()))
     assert (len(lines), lines[-1]) == (51, "... and more")
 
 
 @pytest.mark.parametrize("command", ["optimize", "analyze"])
 def test_an_input_that_an_output_needs(body: dict[str, Any], command: str) -> None:
     del body["machine"]["throws"][0]["rows"][0]["connecting_rod"]
-    (line,) = refused(run(command, "-", "--output", "stages", given=json.dumps(body).encode()))
+    (line,) = refused(run(command, "-", "--output", "stages", stdin=json.dumps(body).encode()))
     assert line.startswith("/machine/throws/0/rows/0/connecting_rod: ")
-    (line,) = refused(run(command, "-", "--output", "smell", given=json.dumps(body).encode()))
+    (line,) = refused(run(command, "-", "--output", "smell", stdin=json.dumps(body).encode()))
     assert line.startswith("/outputs/0: must be 'residual'")
 
 
@@ -208,7 +208,7 @@ def test_examples() -> None:
     assert run("examples", "--json").stdout == catalogue().model_dump_json() + "\n"
     printed = run("examples", "2d12")
     assert json.loads(printed.stdout) == json.loads(load("2d12"))
-    assert run("optimize", "-", given=printed.stdout_bytes).exit_code == 0
+    assert run("optimize", "-", stdin=printed.stdout_bytes).exit_code == 0
     assert "no example of this name" in refused(run("examples", "../pyproject"))[0]
 
 
@@ -238,9 +238,9 @@ def test_a_closed_pipe_is_said_without_a_traceback() -> None:
         assert process.stdout is not None
         assert process.stderr is not None
         process.stdout.close()
-        said = process.stderr.read().decode()
+        content = process.stderr.read().decode()
     assert process.returncode == 2
-    assert said.splitlines() == ["cannot write to standard output: Broken pipe"]
+    assert content.splitlines() == ["cannot write to standard output: Broken pipe"]
 
 
 @pytest.mark.parametrize("level", part(2, [None, "debug"]))
@@ -251,14 +251,14 @@ def test_a_fault_of_the_program_is_no_infeasible_answer(level: str | None) -> No
         "sys.modules['optimizer.optimize'].prepare = broken\n"
         "service.cli.main()"
     )
-    kept = {name: value for name, value in os.environ.items() if name != "COUNTERWEIGHT_LOG_LEVEL"}
-    environment = kept if level is None else {**kept, "COUNTERWEIGHT_LOG_LEVEL": level}
-    done = subprocess.run(
+    fields = {name: value for name, value in os.environ.items() if name != "COUNTERWEIGHT_LOG_LEVEL"}
+    environment = fields if level is None else {**fields, "COUNTERWEIGHT_LOG_LEVEL": level}
+    process = subprocess.run(
         [sys.executable, "-c", code, "optimize", "-"],
         input=load("v90-equal"), cwd=ROOT, timeout=180, capture_output=True, env=environment, check=False,
     )  # fmt: skip
-    assert (done.returncode, done.stdout) == (70, b"")
-    *before, last = done.stderr.decode().splitlines()
+    assert (process.returncode, process.stdout) == (70, b"")
+    *before, last = process.stderr.decode().splitlines()
     assert last.startswith("internal fault, not of the input: ZeroDivisionError: as a fault (")
     assert bool(before) == (level == "debug")
     assert not before or before[0].startswith("Traceback")
@@ -286,18 +286,18 @@ def test_a_first_answer_loads_nothing_that_no_terminal_shows() -> None:
         "    drawings = [name for name in sys.modules if name.startswith('service.drawings.')]\n"
         "    print(threads, plugins, *drawings, file=sys.stderr)"
     )
-    kept = {name: value for name, value in os.environ.items() if name != "OPENBLAS_NUM_THREADS"}
-    done = subprocess.run(
-        [sys.executable, "-c", code], input=load("v90-equal"), cwd=ROOT, timeout=180, capture_output=True, env=kept,
+    fields = {name: value for name, value in os.environ.items() if name != "OPENBLAS_NUM_THREADS"}
+    process = subprocess.run(
+        [sys.executable, "-c", code], input=load("v90-equal"), cwd=ROOT, timeout=180, capture_output=True, env=fields,
         check=True,
     )  # fmt: skip
-    assert "V 90 degrees, equal rows: optimal" in done.stdout.decode()
+    assert "V 90 degrees, equal rows: optimal" in process.stdout.decode()
     # pens and paper; no machine is drawn with them
-    assert done.stderr.decode().split() == ["1", "None", "service.drawings.svg"]
+    assert process.stderr.decode().split() == ["1", "None", "service.drawings.svg"]
 
 
 def test_version(client: TestClient) -> None:
-    shown = run("--version")
-    assert (shown.exit_code, shown.stdout) == (0, f"{version(DISTRIBUTION)}\n")
+    process = run("--version")
+    assert (process.exit_code, process.stdout) == (0, f"{version(DISTRIBUTION)}\n")
     answer = client.get("/v1/version").json()
     assert answer == {"version": version(DISTRIBUTION), "processor": processor()}

@@ -32,7 +32,7 @@ SHOWN = {
 }
 
 
-def asked(outputs: list[str]) -> list[str]:
+def output_options(outputs: list[str]) -> list[str]:
     return [argument for output in outputs for argument in ("--output", output)]
 
 
@@ -52,13 +52,13 @@ def test_tables(command: str, output: str) -> None:
 
 
 def test_all_tables_together() -> None:
-    result = run("analyze", example(), *asked(OVER_THE_TURN))
+    result = run("analyze", example(), *output_options(OVER_THE_TURN))
     assert all(text in result.stdout for texts in SHOWN.values() for text in texts)
 
 
 def test_an_infeasible_machine_has_loads_before_alone(body: dict[str, Any]) -> None:
     body["objective"] = {"force_ceiling_N": 1}
-    result = run("optimize", "-", "--output", "main_bearings", given=json.dumps(body).encode())
+    result = run("optimize", "-", "--output", "main_bearings", stdin=json.dumps(body).encode())
     assert result.exit_code == 1
     assert "│ without counterweights " in result.stdout
     assert "│ with counterweights " not in result.stdout
@@ -66,8 +66,8 @@ def test_an_infeasible_machine_has_loads_before_alone(body: dict[str, Any]) -> N
 
 @pytest.mark.parametrize("step_deg", [0.5, 7.2, 30, 72, 120])
 def test_whatever_the_samples(body: dict[str, Any], step_deg: float) -> None:
-    given = json.dumps(body | {"angles": {"step_deg": step_deg}}).encode()
-    result = run("analyze", "-", *asked(OVER_THE_TURN), given=given)
+    text = json.dumps(body | {"angles": {"step_deg": step_deg}}).encode()
+    result = run("analyze", "-", *output_options(OVER_THE_TURN), stdin=text)
     assert result.exit_code == 0
     # regression: twelve angles at the most, or a few more where 30 degrees are no whole number of steps
     assert sum(line.startswith("│ ") for line in result.stdout.splitlines()) < 120
@@ -76,12 +76,12 @@ def test_whatever_the_samples(body: dict[str, Any], step_deg: float) -> None:
 def test_rows_are_told_apart(body: dict[str, Any]) -> None:
     for throw in body["machine"]["throws"]:
         throw["rows"][0]["name"] = "[b]R"
-    stdout = run("analyze", "-", "--output", "kinematics", given=json.dumps(body).encode()).stdout
+    stdout = run("analyze", "-", "--output", "kinematics", stdin=json.dumps(body).encode()).stdout
     assert "│ 1-[b]R: velocity" in stdout
     assert "│ 2-[b]R: velocity" in stdout
     for throw in body["machine"]["throws"]:
         del throw["rows"][0]["name"]
-    stdout = run("analyze", "-", "--output", "kinematics", given=json.dumps(body).encode()).stdout
+    stdout = run("analyze", "-", "--output", "kinematics", stdin=json.dumps(body).encode()).stdout
     assert "│ 2-1: velocity" in stdout
 
 
@@ -89,7 +89,7 @@ def test_a_machine_without_rows(body: dict[str, Any]) -> None:
     for throw in body["machine"]["throws"]:
         del throw["rows"]
     del body["machine"]["friction"]
-    result = run("analyze", "-", *asked(OVER_THE_TURN), given=json.dumps(body).encode())
+    result = run("analyze", "-", *output_options(OVER_THE_TURN), stdin=json.dumps(body).encode())
     assert result.exit_code == 0
 
 
@@ -99,7 +99,7 @@ def test_many_rows_stand_below_each_other() -> None:
     for throw in body["machine"]["throws"]:
         for row in throw["rows"]:
             row |= {"cylinder": first["cylinder"], "connecting_rod": {"length_m": 10}}
-    result = run("analyze", "-", "--output", "torque", given=json.dumps(body).encode())
+    result = run("analyze", "-", "--output", "torque", stdin=json.dumps(body).encode())
     assert result.exit_code == 0
     # the heading of a table, not the largest of all
     assert len(re.findall(r"^torque over the cycle, N m", result.stdout, re.MULTILINE)) == 2
@@ -128,7 +128,7 @@ def test_rating() -> None:
 @pytest.mark.parametrize("name", bodies("rating"))
 def test_json_of_a_rating_is_the_answer_of_the_service(client: Any, name: str) -> None:
     body = json.dumps(bodies("rating")[name]).encode()
-    result = run("rating", "-", "--json", given=body)
+    result = run("rating", "-", "--json", stdin=body)
     assert result.exit_code == 0
     RatingAnswer.model_validate_json(result.stdout)
     answer = client.post("/v1/rating", content=body, headers={"Content-Type": "application/json"})
@@ -137,12 +137,12 @@ def test_json_of_a_rating_is_the_answer_of_the_service(client: Any, name: str) -
 
 def test_bad_input_of_a_rating() -> None:
     body = bodies("rating")["2d12"]
-    assert refused(run("rating", "-", given=b"{")) != []
+    assert refused(run("rating", "-", stdin=b"{")) != []
     body["stages"][0]["relative_clearance"] = 5
-    (line,) = refused(run("rating", "-", given=json.dumps(body).encode()))
+    (line,) = refused(run("rating", "-", stdin=json.dumps(body).encode()))
     assert line.startswith("/stages/0/relative_clearance: too large")
     body["stages"][0]["relative_clearance"] = 0
-    (line,) = refused(run("rating", "-", given=json.dumps(body).encode()))
+    (line,) = refused(run("rating", "-", stdin=json.dumps(body).encode()))
     assert line.startswith("/stages/0/relative_clearance: must be ")
 
 

@@ -23,8 +23,8 @@ from tests.service.toy import TOY
 def decoded(content: bytes, coding: Coding) -> bytes:
     if coding == "gzip":
         return gzip.decompress(content)
-    found: bytes = pa.CompressedInputStream(pa.BufferReader(content), coding).read()
-    return found
+    data: bytes = pa.CompressedInputStream(pa.BufferReader(content), coding).read()
+    return data
 
 
 @pytest.mark.parametrize("coding", ["gzip", "zstd"])
@@ -36,19 +36,19 @@ def test_a_coded_answer_is_the_answer(coding: Coding, body: dict[str, Any]) -> N
 
 def performed(computation: Computation, body: dict[str, Any], coding: Coding | None, form: int = 0) -> Answer:
     content = json.dumps(body).encode()
-    found = perform(Task(computation, computation.forms[form], content, SizeLimits.of(Settings()), coding))
-    assert isinstance(found, Answer), found
-    return found
+    answer = perform(Task(computation, computation.forms[form], content, SizeLimits.of(Settings()), coding))
+    assert isinstance(answer, Answer), answer
+    return answer
 
 
 @pytest.mark.parametrize("coding", ["gzip", "zstd"])
 def test_a_worker_compresses_what_is_worth_it(coding: Coding, body: dict[str, Any]) -> None:
     optimize = COMPUTATIONS["optimize"]
-    plain, packed = (performed(optimize, body, each) for each in (None, coding))
+    plain, packed = (performed(optimize, body, value) for value in (None, coding))
     assert (plain.coding, packed.coding) == (None, coding)
     assert packed.size == len(packed.content) < plain.size
-    found = json.loads(decoded(packed.content, coding))
-    assert found["counterweights"] == json.loads(plain.content)["counterweights"]
+    answer = json.loads(decoded(packed.content, coding))
+    assert answer["counterweights"] == json.loads(plain.content)["counterweights"]
 
 
 def test_what_is_small_or_compressed_already_goes_as_it_is(body: dict[str, Any]) -> None:
@@ -87,10 +87,10 @@ def test_documents_are_kept_by_who_has_them(client: TestClient, path: str) -> No
     assert "content-encoding" not in plain.headers
     assert plain.content == first.content
     assert plain.headers["etag"] == first.headers["etag"]
-    known = first.headers["etag"]
-    for tags in (known, f'"other", {known}', known.removeprefix("W/"), "*"):
+    etag = first.headers["etag"]
+    for tags in (etag, f'"other", {etag}', etag.removeprefix("W/"), "*"):
         again = client.get(path, headers={"If-None-Match": tags})
-        assert (again.status_code, again.content, again.headers["etag"]) == (304, b"", known)
+        assert (again.status_code, again.content, again.headers["etag"]) == (304, b"", etag)
     assert client.get(path, headers={"If-None-Match": '"other"'}).status_code == 200
 
 

@@ -17,14 +17,14 @@ def test_the_page_loads_nothing_from_elsewhere(client: TestClient) -> None:
 
 def test_everything_that_the_page_loads_is_there(client: TestClient) -> None:
     page = client.get("/docs").text
-    found = re.findall(r'(?:src|href)="([^"]+)"', page) + re.findall(r"url: '([^']+)'", page)
-    assert set(found) == {
+    matches = re.findall(r'(?:src|href)="([^"]+)"', page) + re.findall(r"url: '([^']+)'", page)
+    assert set(matches) == {
         "docs/assets/swagger-ui.css",
         "docs/assets/favicon.png",
         "docs/assets/swagger-ui-bundle.js",
         "openapi.json",
     }
-    for address in found:
+    for address in matches:
         assert client.get(f"/{address}").status_code == 200
 
 

@@ -50,39 +50,39 @@ def test_every_output_over_the_turn(post: Post, body: dict[str, Any], path: str)
     answer = post(path, json.dumps(body | {"outputs": OVER_THE_TURN, "angles": {"step_deg": 30}}))
     assert answer.status_code == 200
     model = OptimizeAnswer if path == "/v1/optimize" else AnalyzeAnswer
-    found = model.model_validate_json(answer.content)
+    optimum = model.model_validate_json(answer.content)
     for name in OVER_THE_TURN:
-        assert getattr(found, name) is not None
-    assert found.torque is not None
-    assert found.torque.angle_deg == tuple(range(0, 360, 30))
+        assert getattr(optimum, name) is not None
+    assert optimum.torque is not None
+    assert optimum.torque.angle_deg == tuple(range(0, 360, 30))
     # power is torque times angular speed, and what is not put into the gas is friction
     omega = 500 * 3.141592653589793 / 30
-    assert found.torque.shaft_power_W == pytest.approx(found.torque.mean_torque_Nm * omega, rel=1e-12)
-    powers = found.torque.indicated_power_W + found.torque.friction_power_W
-    assert found.torque.shaft_power_W == pytest.approx(powers, rel=1e-9)
-    assert found.flywheel is not None
-    assert found.flywheel.inertia_MD2_kg_m2 == pytest.approx(4 * found.flywheel.inertia_J_kg_m2)
+    assert optimum.torque.shaft_power_W == pytest.approx(optimum.torque.mean_torque_Nm * omega, rel=1e-12)
+    powers = optimum.torque.indicated_power_W + optimum.torque.friction_power_W
+    assert optimum.torque.shaft_power_W == pytest.approx(powers, rel=1e-9)
+    assert optimum.flywheel is not None
+    assert optimum.flywheel.inertia_MD2_kg_m2 == pytest.approx(4 * optimum.flywheel.inertia_J_kg_m2)
 
 
 @pytest.mark.parametrize("output", OVER_THE_TURN)
 def test_one_output_is_alone(post: Post, body: dict[str, Any], output: str) -> None:
-    found = post("/v1/analyze", json.dumps(body | {"outputs": [output]})).json()
-    assert [name for name in (*OVER_THE_TURN, "residual", "orders") if found[name] is not None] == [output]
-    simulated = {name for name, use in found["effects"].items() if use["simulated"]}
-    assert {name for name in simulated if found["effects"][name]["needed_by"] != [output]} == set()
+    document = post("/v1/analyze", json.dumps(body | {"outputs": [output]})).json()
+    assert [name for name in (*OVER_THE_TURN, "residual", "orders") if document[name] is not None] == [output]
+    simulated = {name for name, use in document["effects"].items() if use["simulated"]}
+    assert {name for name in simulated if document["effects"][name]["needed_by"] != [output]} == set()
 
 
 def test_friction_is_left_out_where_the_machine_gives_none(post: Post, body: dict[str, Any]) -> None:
     del body["machine"]["friction"]
-    found = post("/v1/analyze", json.dumps(body | {"outputs": ["torque"]})).json()
-    assert found["torque"]["friction_power_W"] == 0
-    assert not found["effects"]["friction"]["simulated"]
+    document = post("/v1/analyze", json.dumps(body | {"outputs": ["torque"]})).json()
+    assert document["torque"]["friction_power_W"] == 0
+    assert not document["effects"]["friction"]["simulated"]
 
 
 def test_a_continuous_shaft(post: Post, body: dict[str, Any]) -> None:
-    asked = body | {"outputs": ["main_bearings"]}
-    spans = post("/v1/analyze", json.dumps(asked)).json()["main_bearings"]
-    shaft = post("/v1/analyze", json.dumps(asked | {"fidelity": {"shaft": "continuous"}})).json()["main_bearings"]
+    payload = body | {"outputs": ["main_bearings"]}
+    spans = post("/v1/analyze", json.dumps(payload)).json()["main_bearings"]
+    shaft = post("/v1/analyze", json.dumps(payload | {"fidelity": {"shaft": "continuous"}})).json()["main_bearings"]
     assert (spans["shaft"], shaft["shaft"]) == ("simple_spans", "continuous")
     assert spans["bearings"][1]["before"]["peak_N"] != shaft["bearings"][1]["before"]["peak_N"]
 
@@ -116,14 +116,14 @@ def test_inertia_needs_no_gas_data(post: Post, body: dict[str, Any]) -> None:
     for throw in body["machine"]["throws"]:
         for row in throw["rows"]:
             row["cylinder"] = None
-    asked = body | {"outputs": ["main_bearings", "rod_loads", "overturning", "torque", "piston_force"]}
-    answer = post("/v1/analyze", json.dumps(asked))
+    payload = body | {"outputs": ["main_bearings", "rod_loads", "overturning", "torque", "piston_force"]}
+    answer = post("/v1/analyze", json.dumps(payload))
     assert answer.status_code == 200
-    found = answer.json()
-    assert not found["effects"]["gas"]["simulated"]
-    assert found["torque"]["indicated_power_W"] == 0
-    assert abs(found["torque"]["mean_torque_Nm"]) < 1e-9 * max(found["torque"]["torque_Nm"])
-    for row in found["rod_loads"]["rows"]:
+    document = answer.json()
+    assert not document["effects"]["gas"]["simulated"]
+    assert document["torque"]["indicated_power_W"] == 0
+    assert abs(document["torque"]["mean_torque_Nm"]) < 1e-9 * max(document["torque"]["torque_Nm"])
+    for row in document["rod_loads"]["rows"]:
         running, no_load, sudden_stop = row["cases"]
         assert running["tension_N"] == no_load["tension_N"] > 0
         assert sudden_stop["tension_N"] == sudden_stop["compression_N"] == 0
@@ -184,9 +184,9 @@ def test_a_clearance_that_lets_nothing_through(post: Post, body: dict[str, Any])
 
 
 def test_an_infeasible_machine_has_its_dynamics_too(post: Post, body: dict[str, Any]) -> None:
-    asked = copy.deepcopy(body) | {"outputs": OVER_THE_TURN, "objective": {"force_ceiling_N": 1}}
-    found = OptimizeAnswer.model_validate_json(post("/v1/optimize", json.dumps(asked)).content)
-    assert found.status == "infeasible"
-    assert found.main_bearings is not None
-    assert [one.after for one in found.main_bearings.bearings] == [None] * 3
-    assert found.torque is not None
+    variant = copy.deepcopy(body) | {"outputs": OVER_THE_TURN, "objective": {"force_ceiling_N": 1}}
+    answer = OptimizeAnswer.model_validate_json(post("/v1/optimize", json.dumps(variant)).content)
+    assert answer.status == "infeasible"
+    assert answer.main_bearings is not None
+    assert [bearing.after for bearing in answer.main_bearings.bearings] == [None] * 3
+    assert answer.torque is not None

@@ -16,22 +16,22 @@ def catalogue(client: TestClient) -> EffectCatalogue:
 
 
 def test_all_outputs_and_effects_are_there(client: TestClient) -> None:
-    found = catalogue(client)
-    assert [one.name for one in found.outputs] == list(get_args(OutputName))
-    assert [one.name for one in found.effects] == list(EFFECTS)
-    assert all(one.meaning for one in (*found.outputs, *found.effects))
+    answer = catalogue(client)
+    assert [output.name for output in answer.outputs] == list(get_args(OutputName))
+    assert [effect.name for effect in answer.effects] == list(EFFECTS)
+    assert all(model.meaning for model in (*answer.outputs, *answer.effects))
 
 
 def test_effects_stand_in_the_order_in_which_they_run(client: TestClient) -> None:
-    found = catalogue(client)
-    needs = {one.name: set(one.needs) for one in found.effects}
-    for names in ([one.name for one in found.effects], *(one.needs for one in found.outputs)):
+    answer = catalogue(client)
+    needs = {effect.name: set(effect.needs) for effect in answer.effects}
+    for names in ([effect.name for effect in answer.effects], *(output.needs for output in answer.outputs)):
         for place, name in enumerate(names):
             assert needs[name] <= set(names[:place])
 
 
 def test_an_output_lists_what_it_takes(client: TestClient) -> None:
-    by_name = {one.name: one for one in catalogue(client).outputs}
+    by_name = {output.name: output for output in catalogue(client).outputs}
     assert by_name["residual"].inputs == ()
     assert by_name["gas"] == OutputEntry(
         name="gas",

@@ -19,15 +19,15 @@ Post = Callable[..., Any]
 def problem(answer: Any, status: int) -> Problem:
     assert answer.status_code == status
     assert answer.headers["content-type"] == "application/problem+json"
-    found = Problem.model_validate_json(answer.content)
-    assert found.status == status
-    return found
+    program = Problem.model_validate_json(answer.content)
+    assert program.status == status
+    return program
 
 
 @pytest.mark.parametrize("path", ["/nothing", "/v1", "/v1/optimize/", "/docs/assets/nothing.js", "/docs/assets/../x"])
 def test_404(client: TestClient, path: str) -> None:
-    found = problem(client.get(path), 404)
-    assert (found.type, found.title) == ("/problems/not-found", "Not Found")
+    program = problem(client.get(path), 404)
+    assert (program.type, program.title) == ("/problems/not-found", "Not Found")
     assert problem(client.post("/v1/optimise", json={}), 404).instance == "/v1/optimise"
 
 
@@ -63,8 +63,8 @@ def test_head(client: TestClient) -> None:
     [b"", b"  ", b"{", b"\xff{}", b"[" * 100_000, b"{}{}", b"\x1f\x8b\x08", "{}".encode("utf-16")],
 )
 def test_400(post: Post, path: str, content: bytes) -> None:
-    found = problem(post(path, content), 400)
-    assert (found.type, found.instance, found.errors) == ("/problems/unreadable-json", path, ())
+    program = problem(post(path, content), 400)
+    assert (program.type, program.instance, program.errors) == ("/problems/unreadable-json", path, ())
 
 
 @pytest.mark.parametrize(
@@ -105,8 +105,8 @@ def test_415_without_a_type_or_with_an_encoding(client: TestClient, post: Post) 
     ],
 )
 def test_accepted_types(client: TestClient, body: dict[str, Any], kind: str) -> None:
-    sent = json.dumps(body).encode()
-    assert client.post("/v1/analyze", content=sent, headers={"Content-Type": kind}).status_code == 200
+    text = json.dumps(body).encode()
+    assert client.post("/v1/analyze", content=text, headers={"Content-Type": kind}).status_code == 200
 
 
 def test_413(post: Post, body: dict[str, Any]) -> None:
@@ -133,13 +133,13 @@ def test_413_of_a_body_in_chunks(post: Post, body: dict[str, Any]) -> None:
 def test_422(post: Post, body: dict[str, Any]) -> None:
     body["machine"]["throws"][0]["crank_radius_m"] = -1
     body["machine"]["webs"][1]["name"] = ""
-    found = problem(post("/v1/optimize", json.dumps(body)), 422)
-    assert (found.type, found.title, found.detail) == (
+    program = problem(post("/v1/optimize", json.dumps(body)), 422)
+    assert (program.type, program.title, program.detail) == (
         "/problems/invalid-request",
         "Invalid request",
         "2 fields are wrong.",
     )
-    assert [(error.pointer, error.message) for error in found.errors] == [
+    assert [(error.pointer, error.message) for error in program.errors] == [
         ("/machine/webs/1/name", "must have at least 1 character"),
         ("/machine/throws/0/crank_radius_m", "must be at least 1e-12"),
     ]
@@ -148,29 +148,29 @@ def test_422(post: Post, body: dict[str, Any]) -> None:
 @pytest.mark.parametrize("path", ["/v1/optimize", "/v1/analyze"])
 @pytest.mark.parametrize("root", ["null", "[]", '"x"', "1", "NaN", "true"])
 def test_422_of_a_body_that_is_no_object(post: Post, path: str, root: str) -> None:
-    found = problem(post(path, root), 422)
-    assert [(error.pointer, error.message) for error in found.errors] == [("", "must be an object")]
-    assert found.detail == "1 field is wrong."
+    program = problem(post(path, root), 422)
+    assert [(error.pointer, error.message) for error in program.errors] == [("", "must be an object")]
+    assert program.detail == "1 field is wrong."
 
 
 @pytest.mark.parametrize("text", ["NaN", "-Infinity", "1e999", "9" * 5000])
 def test_422_of_numbers_that_are_none(post: Post, body: dict[str, Any], text: str) -> None:
     body["machine"]["webs"][2]["max_mass_kg"] = "?"
-    found = problem(post("/v1/optimize", json.dumps(body).replace('"?"', text)), 422)
-    assert [error.pointer for error in found.errors] == ["/machine/webs/2/max_mass_kg"]
+    program = problem(post("/v1/optimize", json.dumps(body).replace('"?"', text)), 422)
+    assert [error.pointer for error in program.errors] == ["/machine/webs/2/max_mass_kg"]
 
 
 @pytest.mark.parametrize("key", ["", "a b", "é".encode("latin-1"), "x" * 256])
 def test_422_of_a_key_that_is_none(post: Post, body: dict[str, Any], key: Any) -> None:
     """Whether a job is asked for or not."""
-    found = problem(post("/v1/optimize", json.dumps(body), Idempotency_Key=key), 422)
-    assert (found.type, found.errors) == ("/problems/invalid-header", ())
+    program = problem(post("/v1/optimize", json.dumps(body), Idempotency_Key=key), 422)
+    assert (program.type, program.errors) == ("/problems/invalid-header", ())
 
 
 @pytest.mark.parametrize("value", ["true", 1, 0, None, []])
 def test_422_of_a_flag_that_is_none(post: Post, body: dict[str, Any], value: Any) -> None:
-    found = problem(post("/v1/pictures/front", json.dumps({**body, "picture": {"transparent": value}})), 422)
-    assert [(error.pointer, error.message) for error in found.errors] == [
+    program = problem(post("/v1/pictures/front", json.dumps({**body, "picture": {"transparent": value}})), 422)
+    assert [(error.pointer, error.message) for error in program.errors] == [
         ("/picture/transparent", "must be true or false")
     ]
 
@@ -180,10 +180,10 @@ def test_422_of_a_flag_that_is_none(post: Post, body: dict[str, Any], value: Any
 def test_422_of_an_input_that_an_output_needs(post: Post, body: dict[str, Any], path: str, output: str) -> None:
     del body["machine"]["throws"][1]["rows"][0]["connecting_rod"]
     assert post(path, json.dumps(body)).status_code == 200
-    found = problem(post(path, json.dumps({**body, "outputs": [output]})), 422)
-    assert (found.type, found.title) == ("/problems/missing-input", "Missing input")
-    assert [error.pointer for error in found.errors] == ["/machine/throws/1/rows/0/connecting_rod"]
-    assert output in found.errors[0].message
+    program = problem(post(path, json.dumps({**body, "outputs": [output]})), 422)
+    assert (program.type, program.title) == ("/problems/missing-input", "Missing input")
+    assert [error.pointer for error in program.errors] == ["/machine/throws/1/rows/0/connecting_rod"]
+    assert output in program.errors[0].message
 
 
 SECRET = "secret-7f3a"
@@ -216,8 +216,8 @@ def test_unreadable_json_is_not_echoed(post: Post) -> None:
 def test_at_most_fifty_errors(post: Post, body: dict[str, Any]) -> None:
     for count, detail in ((50, "50 fields are wrong."), (51, "More than 50 fields are wrong; the first are listed.")):
         answer = post("/v1/optimize", json.dumps({**body, **{f"x{k}": 0 for k in range(count)}}))
-        found = problem(answer, 422)
-        assert (len(found.errors), found.detail) == (50, detail)
+        error = problem(answer, 422)
+        assert (len(error.errors), error.detail) == (50, detail)
     assert len(answer.content) < 5000
 
 
@@ -232,10 +232,10 @@ def test_a_megabyte_of_bad_items_has_a_small_answer(post: Post, body: dict[str, 
     "path", ["/%ff%00%0a", "/" + "x" * 5000, "/%ed%a0%80", "/é ü", "/v1/examples/%0d%0aSet-Cookie:x"]
 )
 def test_odd_paths(client: TestClient, path: str) -> None:
-    found = problem(client.get(path), 404)
-    assert found.instance.isascii()
-    assert found.instance.isprintable()
-    assert len(found.instance) < 1000
+    program = problem(client.get(path), 404)
+    assert program.instance.isascii()
+    assert program.instance.isprintable()
+    assert len(program.instance) < 1000
 
 
 def test_500_says_nothing_of_the_inside() -> None:
@@ -264,8 +264,8 @@ def test_parameters_of_later_routes() -> None:
         return points
 
     with TestClient(app) as client:
-        found = problem(client.get("/later?points=many"), 422)
-        assert (found.title, found.detail) == ("Invalid parameter", "Wrong parameters of path or query: points.")
+        error = problem(client.get("/later?points=many"), 422)
+        assert (error.title, error.detail) == ("Invalid parameter", "Wrong parameters of path or query: points.")
 
 
 def test_the_table_ends_with_the_last_resort() -> None:

@@ -40,9 +40,9 @@ def _false(claim: Callable[..., Claim]) -> Callable[..., Claim]:
 def outcome(monkeypatch: pytest.MonkeyPatch) -> Answer:
     monkeypatch.setattr(answer_fields, "_claim", _false(answer_fields._claim))
     optimize = COMPUTATIONS["optimize"]
-    found = perform(Task(optimize, optimize.forms[0], json.dumps(BODY).encode(), SizeLimits.of(Settings())))
-    assert isinstance(found, Answer), found
-    return found
+    answer = perform(Task(optimize, optimize.forms[0], json.dumps(BODY).encode(), SizeLimits.of(Settings())))
+    assert isinstance(answer, Answer), answer
+    return answer
 
 
 def test_the_answer_proves_nothing_and_the_worker_tells(outcome: Answer) -> None:
@@ -65,8 +65,8 @@ def test_it_is_counted(outcome: Answer, client: TestClient) -> None:
 
 def test_a_chunk_of_a_sweep_tells_too(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
     monkeypatch.setattr(certified, "claim", _false(certified.claim))
-    asked = {"base": BODY, "axes": [{"path": "/machine/speed_rpm", "values": [600, 700, 800]}]}
-    piece = jobs.run("sweep", json.dumps(asked).encode(), 0, 3, str(tmp_path / "stop"))
+    sweep = {"base": BODY, "axes": [{"path": "/machine/speed_rpm", "values": [600, 700, 800]}]}
+    piece = jobs.run("sweep", json.dumps(sweep).encode(), 0, 3, str(tmp_path / "stop"))
     assert piece.failed == 3
     assert piece.faults == ("a lower bound is above the value of an answer: 3 of 3",)
 

@@ -136,9 +136,9 @@ def driven(draw: st.DrawFn) -> dict[str, Any]:
     body["machine"] = scaled(machine, lambda name: factors.get(name.rpartition("_")[2], 1.0))
     for _ in range(draw(st.integers(0, 2))):
         tweak(draw, body["machine"])
-    asked = draw(st.lists(st.sampled_from([*FIRST_ORDER, *OVER_THE_TURN]), min_size=1, unique=True))
+    sample = draw(st.lists(st.sampled_from([*FIRST_ORDER, *OVER_THE_TURN]), min_size=1, unique=True))
     shaft = draw(st.sampled_from(["simple_spans", "continuous"]))
-    return body | {"outputs": asked, "angles": {"step_deg": 60}, "fidelity": {"shaft": shaft}}
+    return body | {"outputs": sample, "angles": {"step_deg": 60}, "fidelity": {"shaft": shaft}}
 
 
 @st.composite
@@ -190,8 +190,8 @@ def answered_properly(client: TestClient, path: str, content: bytes) -> None:
     else:
         assert answer.status_code in (400, 422)
         assert answer.headers["content-type"] == "application/problem+json"
-        found = Problem.model_validate_json(answer.content)
-        assert (found.status, bool(found.errors)) == (answer.status_code, answer.status_code == 422)
+        problem = Problem.model_validate_json(answer.content)
+        assert (problem.status, bool(problem.errors)) == (answer.status_code, answer.status_code == 422)
 
 
 #: 40 by day, 600 at night
@@ -202,9 +202,9 @@ MANY = settings(
 
 
 @MANY
-@given(asked=mutated())
-def test_changed_requests(client: TestClient, asked: tuple[str, dict[str, Any]]) -> None:
-    path, body = asked
+@given(pair=mutated())
+def test_changed_requests(client: TestClient, pair: tuple[str, dict[str, Any]]) -> None:
+    path, body = pair
     answered_properly(client, path, question(path, body))
 
 

@@ -75,8 +75,8 @@ PHYSICAL = re.compile(r"_(m|m2|m3|m3_per_min|m_s|m_s2|kg|kg_m|kg_m2|deg|rpm|N|Nm
 @pytest.fixture(scope="module")
 def document() -> dict[str, Any]:
     # without the lifespan: the document needs no solver
-    found: dict[str, Any] = TestClient(create_app(Settings())).get("/openapi.json").json()
-    return found
+    record: dict[str, Any] = TestClient(create_app(Settings())).get("/openapi.json").json()
+    return record
 
 
 def operations(document: dict[str, Any]) -> list[dict[str, Any]]:
@@ -89,13 +89,16 @@ def test_sources_are_named_in_words(document: dict[str, Any]) -> None:
 
 
 def test_names_that_clients_depend_on(document: dict[str, Any]) -> None:
-    found = {
+    operation_Ids = {
         (method, path): operation["operationId"]
         for path, methods in document["paths"].items()
         for method, operation in methods.items()
     }
     # a computation that is added is called as its entry is
-    assert found == {("post", one.path): one.name for one in COMPUTATIONS.values()} | OPERATIONS
+    assert (
+        operation_Ids
+        == {("post", computation.path): computation.name for computation in COMPUTATIONS.values()} | OPERATIONS
+    )
     assert document["openapi"].startswith("3.1")
     assert all(operation["summary"] and operation["tags"] for operation in operations(document))
     described = [tag["name"] for tag in document["tags"] if tag["description"]]
@@ -164,13 +167,13 @@ def test_answers_and_bodies_have_schemas(document: dict[str, Any]) -> None:
         assert body["schema"] == {"$ref": f"#/components/schemas/{name}Request"}
         answer = operation["responses"]["200"]["content"]["application/json"]
         assert answer["schema"] == {"$ref": f"#/components/schemas/{name}Answer"}
-    for one in (document["paths"]["/v1/examples/{name}"]["get"], document["paths"]["/v1/convert"]["post"]):
-        schema = one["responses"]["200"]["content"]["application/json"]["schema"]
+    for post in (document["paths"]["/v1/examples/{name}"]["get"], document["paths"]["/v1/convert"]["post"]):
+        schema = post["responses"]["200"]["content"]["application/json"]["schema"]
         assert schema == {"$ref": "#/components/schemas/OptimizeRequest"}
 
 
 def test_every_reference_leads_somewhere(document: dict[str, Any]) -> None:
-    known = document["components"]["schemas"]
+    schemas = document["components"]["schemas"]
 
     def references(node: Any) -> set[str]:
         if isinstance(node, dict):
@@ -180,7 +183,7 @@ def test_every_reference_leads_somewhere(document: dict[str, Any]) -> None:
 
     expected = {f"#/components/{kind}/{name}" for kind in PARTS for name in document["components"][kind]}
     assert references(document) == expected
-    assert not {"HTTPValidationError", "ValidationError"} & set(known)
+    assert not {"HTTPValidationError", "ValidationError"} & set(schemas)
 
 
 def test_every_field_is_described_with_examples_and_its_unit(document: dict[str, Any]) -> None:
@@ -250,39 +253,39 @@ def test_the_prefix_of_a_proxy_is_told() -> None:
 
 def names(listed: list[dict[str, Any]]) -> set[str]:
     """Parameters by name, their own or that of a reference."""
-    return {one.get("name") or one["$ref"].rpartition("/")[2] for one in listed}
+    return {fields.get("name") or fields["$ref"].rpartition("/")[2] for fields in listed}
 
 
 def test_jobs_are_described_where_they_can_be_asked_for(document: dict[str, Any]) -> None:
-    for one in COMPUTATIONS.values():
-        operation = document["paths"][one.path]["post"]
+    for computation in COMPUTATIONS.values():
+        operation = document["paths"][computation.path]["post"]
         listed = names(operation.get("parameters", []))
-        assert ({"Prefer", "Idempotency-Key"} <= listed) is one.later, one.name
-        assert ({"202", "409"} <= set(operation["responses"])) is one.later, one.name
-        assert ("Accept" in listed) is (len(one.forms) > 1), one.name
+        assert ({"Prefer", "Idempotency-Key"} <= listed) is computation.later, computation.name
+        assert ({"202", "409"} <= set(operation["responses"])) is computation.later, computation.name
+        assert ("Accept" in listed) is (len(computation.forms) > 1), computation.name
         content = operation["responses"]["200"]["content"]
-        assert {form.media_type for form in one.forms} == set(content), one.name
+        assert {form.media_type for form in computation.forms} == set(content), computation.name
     for path in ("/v1/optimize", "/v1/sweeps"):
-        told = document["paths"][path]["post"]["responses"]["202"]
-        assert {"Location", "Preference-Applied", "Idempotency-Replayed"} <= set(told["headers"])
+        response = document["paths"][path]["post"]["responses"]["202"]
+        assert {"Location", "Preference-Applied", "Idempotency-Replayed"} <= set(response["headers"])
 
 
 def test_headers_of_answers_are_described(document: dict[str, Any], client: TestClient) -> None:
     """All that pages of other origins may read, and what comes with every answer."""
     shared = set(CORS["expose_headers"])
     assert shared | {"WWW-Authenticate"} == set(document["components"]["headers"])
-    answers = [answer for one in operations(document) for answer in one["responses"].values()]
+    answers = [answer for single_operation in operations(document) for answer in single_operation["responses"].values()]
     assert {name for answer in answers for name in answer["headers"]} == set(document["components"]["headers"])
     for path, methods in document["paths"].items():
         if "get" not in methods or "{" in path:
             continue
         answer = client.get(path)
         operation = methods["get"]
-        told = operation["responses"][str(answer.status_code)]["headers"]
-        sent = {name for name in document["components"]["headers"] if name in answer.headers}
-        assert sent <= set(told), path
-        required = {name for name in told if document["components"]["headers"][name].get("required")}
-        assert required <= sent, path
+        headers = operation["responses"][str(answer.status_code)]["headers"]
+        labels = {name for name in document["components"]["headers"] if name in answer.headers}
+        assert labels <= set(headers), path
+        required = {name for name in headers if document["components"]["headers"][name].get("required")}
+        assert required <= labels, path
         # what has a tag is answered once
         again = client.get(path, headers={"If-None-Match": answer.headers.get("ETag", "none")})
         assert (again.status_code == 304) is ("304" in operation["responses"]), path

@@ -67,9 +67,9 @@ def test_bad_pins_are_refused(client: TestClient, pins: list[dict[str, Any]]) ->
 
 @pytest.mark.parametrize("path", EXAMPLES, ids=lambda path: path.stem)
 def test_examples_on_the_command_line(path: Path, client: TestClient) -> None:
-    shown = CliRunner().invoke(app, ["pin-loads", str(path)])
-    assert shown.exit_code == 0
-    assert "largest load of any pin, N" in shown.output
+    process = CliRunner().invoke(app, ["pin-loads", str(path)])
+    assert process.exit_code == 0
+    assert "largest load of any pin, N" in process.output
     exact = CliRunner().invoke(app, ["pin-loads", str(path), "--json"])
     assert json.loads(exact.output) == client.post(PATH, content=path.read_bytes(), headers=JSON).json()
 
@@ -83,5 +83,5 @@ def test_output_of_a_scroll_machine(client: TestClient) -> None:
     assert answer["status"] == "optimal"
     assert answer["pin_loads"]["peak_N"] > 0
     example = Path(__file__).parents[2] / "examples" / "scroll-three-pins.json"
-    shown = CliRunner().invoke(app, ["analyze", str(example), "--output", "pin_loads"])
-    assert "moment and net force are in balance at every angle" in shown.output
+    process = CliRunner().invoke(app, ["analyze", str(example), "--output", "pin_loads"])
+    assert "moment and net force are in balance at every angle" in process.output

@@ -61,23 +61,25 @@ def _body() -> dict[str, Any]:
 def _forms() -> dict[str, str]:
     """What is said of a machine with such names, by form."""
     body = _body()
-    asked = OptimizeRequest.model_validate(body)
-    book = openpyxl.load_workbook(io.BytesIO(answered(asked, optimize(asked))))
+    request = OptimizeRequest.model_validate(body)
+    book = openpyxl.load_workbook(io.BytesIO(answered(request, optimize(request))))
     cells = [str(cell.value) for sheet in book for line in sheet.iter_rows() for cell in line]
-    made = report(ReportRequest.model_validate({**body, "document": {"project": ODD, "notes": ODD}}), datetime.now(UTC))
+    document = report(
+        ReportRequest.model_validate({**body, "document": {"project": ODD, "notes": ODD}}), datetime.now(UTC)
+    )
     terminal = CliRunner().invoke(app, ["optimize", "-"], input=json.dumps(body).encode())
     assert terminal.exit_code == 0
     return {
-        "page": html(made).decode(),
+        "page": html(document).decode(),
         "workbook": "\n".join(cells),
         "terminal": terminal.stdout,
-        **{name: svg(draw(asked)).decode() for name, draw in _PICTURES.items()},
+        **{name: svg(draw(request)).decode() for name, draw in _PICTURES.items()},
     }
 
 
 def test_nothing_that_quotes_a_name_is_reordered_or_commanded_by_it() -> None:
     forms = _forms()
-    assert [(form, hex(ord(each))) for form, text in forms.items() for each in _HIDDEN if each in text] == []
+    assert [(form, hex(ord(words))) for form, text in forms.items() for words in _HIDDEN if words in text] == []
     # the name is there
     assert [form for form, text in forms.items() if "a\ufffd\ufffd\ufffd" not in text] == []
     # as a name
@@ -86,12 +88,12 @@ def test_nothing_that_quotes_a_name_is_reordered_or_commanded_by_it() -> None:
 
 def test_a_message_that_quotes_a_file_commands_no_terminal() -> None:
     body = {**_body(), "\x1b]0;x\x07\r\x9b2J\u202e": 1}
-    said = CliRunner().invoke(app, ["optimize", "-"], input=json.dumps(body).encode())
-    assert said.exit_code == 2
-    assert said.stderr == "/\ufffd]0;x\ufffd\ufffd\ufffd2J\ufffd: unknown field\n"
+    process = CliRunner().invoke(app, ["optimize", "-"], input=json.dumps(body).encode())
+    assert process.exit_code == 2
+    assert process.stderr == "/\ufffd]0;x\ufffd\ufffd\ufffd2J\ufffd: unknown field\n"
 
 
 @pytest.mark.parametrize("form", ["NFC", "NFD"])
 def test_a_letter_with_its_mark_stays_one_in_the_name_of_a_file(form: Any) -> None:
-    said = file_name(unicodedata.normalize(form, "Kälte é"), ".pdf")
-    assert said.endswith("filename*=UTF-8''K%C3%A4lte%20%C3%A9.pdf")
+    name = file_name(unicodedata.normalize(form, "Kälte é"), ".pdf")
+    assert name.endswith("filename*=UTF-8''K%C3%A4lte%20%C3%A9.pdf")

@@ -48,9 +48,9 @@ def test_a_page_says_cause_and_remedy(client: TestClient, name: str) -> None:
     assert "`" not in html.text
     plain = client.get(kind.type, headers={"Accept": "text/plain"})
     assert plain.text == f"{kind.title} ({kind.status})\n\nCause: {kind.cause}\nRemedy: {kind.remedy}\n"
-    assert {each.headers["vary"] for each in (json, html, plain)} == {"Accept, Accept-Encoding, Origin"}
+    assert {response.headers["vary"] for response in (json, html, plain)} == {"Accept, Accept-Encoding, Origin"}
     # forms are different documents
-    assert len({each.headers["etag"] for each in (json, html, plain)}) == 3
+    assert len({response.headers["etag"] for response in (json, html, plain)}) == 3
 
 
 def test_the_address_in_a_problem_leads_to_its_page(client: TestClient) -> None:
@@ -81,9 +81,9 @@ def test_parameters_are_refused_by_name(
     client: TestClient, method: str, path: str, wrong: list[tuple[str, str]]
 ) -> None:
     answer = client.request(method, path, json={} if method == "POST" else None)
-    said = answer.json()
-    assert (answer.status_code, said["title"]) == (422, "Invalid parameter")
-    assert [(error["pointer"], error["message"]) for error in said["errors"]] == wrong
+    document = answer.json()
+    assert (answer.status_code, document["title"]) == (422, "Invalid parameter")
+    assert [(error["pointer"], error["message"]) for error in document["errors"]] == wrong
 
 
 @pytest.mark.parametrize("path", ["/healthz?probe=1", "/readyz?x", "/?machine=2d12", "/docs?x=1", "/v1/sweeps?limit=3"])

@@ -13,7 +13,7 @@ from service.http.errors import union
 
 def declared() -> dict[str, FaultTable]:
     """The tables of all modules of the service but the application's own."""
-    names = (each.name for each in walk_packages(service.__path__, "service.") if not each.name.endswith("__main__"))
+    names = (info.name for info in walk_packages(service.__path__, "service.") if not info.name.endswith("__main__"))
     modules = {name: vars(import_module(name)) for name in names if name.endswith(("faults", "validation", "leaving"))}
     return {name: content["FAULTS"] for name, content in modules.items() if "FAULTS" in content}
 

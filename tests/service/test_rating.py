@@ -18,8 +18,8 @@ Post = Callable[..., Any]
 
 @pytest.fixture
 def design() -> dict[str, Any]:
-    found: dict[str, Any] = bodies("rating")["2d12"]
-    return found
+    fields: dict[str, Any] = bodies("rating")["2d12"]
+    return fields
 
 
 def test_the_example_is_the_design_of_the_seed(design: dict[str, Any]) -> None:
@@ -49,7 +49,7 @@ def test_the_cylinders_fit_a_machine(post: Post, design: dict[str, Any], body: d
 def test_a_warning_is_no_error(post: Post, design: dict[str, Any]) -> None:
     answer = post("/v1/rating", json.dumps(design | {"installed_motor_power_W": 1000}))
     assert answer.status_code == 200
-    assert "motor_power" in {one["code"] for one in answer.json()["warnings"]}
+    assert "motor_power" in {warning["code"] for warning in answer.json()["warnings"]}
 
 
 @pytest.mark.parametrize(

@@ -31,10 +31,10 @@ def wait_until(condition: Callable[[], bool]) -> None:
 
 def test_warming_then_ready(monkeypatch: pytest.MonkeyPatch) -> None:
     go, openapi = Event(), Documented.openapi
-    made: list[Documented] = []
+    apps: list[Documented] = []
 
     def counted(app: Documented) -> dict[str, Any]:
-        made.append(app)
+        apps.append(app)
         return openapi(app)
 
     monkeypatch.setattr(Documented, "openapi", counted)
@@ -53,9 +53,9 @@ def test_warming_then_ready(monkeypatch: pytest.MonkeyPatch) -> None:
         assert client.get("/readyz").json() == {"status": "ready"}
         assert client.post("/v1/optimize", json={}).status_code == 422
         # it takes longer than all else that is done before the service is ready
-        assert made == []
+        assert apps == []
         first, second = (client.get("/openapi.json").json() for _ in range(2))
-        assert (first, len(made)) == (second, 1)
+        assert (first, len(apps)) == (second, 1)
 
 
 def test_what_is_loaded_is_no_garbage_to_look_through(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -107,10 +107,10 @@ def test_ready_means_database_and_disk_and_threads_too(tmp_path: Path, monkeypat
     app = create_app(Settings(data_dir=tmp_path), warm=False)
     app.state.readiness._checks = {"one": check}
     with TestClient(app) as client:
-        for said, expected in (("no disk", "no disk"), ("no thread", "No thread has answered within 0.5 s.")):
+        for text, expected in (("no disk", "no disk"), ("no thread", "No thread has answered within 0.5 s.")):
             wait_until(lambda: client.get("/readyz").status_code == 200)
             go.clear()
-            trouble[:] = [said]
+            trouble[:] = [text]
             # on a busy machine no thread may have answered first
             wait_until(lambda expected=expected: client.get("/readyz").json().get("detail") == expected)  # type: ignore[misc]
             answer = client.get("/readyz")
@@ -136,9 +136,9 @@ def test_processes_that_are_stopped(tmp_path: Path) -> None:
     # a name that looks like the end of one, and like a state
     program = tmp_path / "x) T 1"
     program.symlink_to("/bin/sleep")
-    made = [subprocess.Popen([program, "600"]) for _ in range(2)]
+    processes = [subprocess.Popen([program, "600"]) for _ in range(2)]
     try:
-        pids = [one.pid for one in made]
+        pids = [process.pid for process in processes]
         needs.workers(lambda: [])
         needs.workers(lambda: pids)
         os.kill(pids[0], signal.SIGSTOP)
@@ -147,9 +147,9 @@ def test_processes_that_are_stopped(tmp_path: Path) -> None:
         with pytest.raises(NotReady, match="have been stopped"):
             needs.workers(lambda: pids[:1])
     finally:
-        for one in made:
-            one.kill()
-            one.wait()
+        for command in processes:
+            command.kill()
+            command.wait()
     # they have ended
     needs.workers(lambda: pids)
 

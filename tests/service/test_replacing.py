@@ -36,8 +36,8 @@ def test_one_that_fails_changes_nothing(tmp_path: Path) -> None:
 def test_several_at_a_time_do_not_meet(tmp_path: Path) -> None:
     """As threads, and the first processes of containers, which all have one process id."""
     path = tmp_path / ("long" * 60)
-    with replaced(path) as one, replaced(path) as two:
-        one.write(b"one")
+    with replaced(path) as io, replaced(path) as two:
+        io.write(b"one")
         two.write(b"two")
     assert path.read_bytes() == b"one"
     assert os.listdir(tmp_path) == [path.name]

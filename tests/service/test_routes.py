@@ -20,71 +20,74 @@ def test_optimize(post: Post, body: dict[str, Any]) -> None:
     assert answer.status_code == 200
     assert answer.headers["content-type"] == "application/json"
     assert answer.headers["cache-control"] == "no-store"
-    found = OptimizeAnswer.model_validate_json(answer.content)
-    assert found.status == "optimal"
-    assert [one.web for one in found.counterweights] == ["1a", "1b", "2a", "2b"]
-    after = found.residual.after
+    optimum = OptimizeAnswer.model_validate_json(answer.content)
+    assert optimum.status == "optimal"
+    assert [counterweight.web for counterweight in optimum.counterweights] == ["1a", "1b", "2a", "2b"]
+    after = optimum.residual.after
     assert after is not None
     # analytic: the counter-rotating phasor of 26.07 kg at 0.14 m and 500 rpm, which counterweights cannot touch
-    assert found.floor.force_N == pytest.approx(26.07 * 0.14 * (500 * 3.141592653589793 / 30) ** 2 / 2, rel=1e-12)
-    assert after.force.peak_N >= found.floor.force_N * (1 - 1e-12)
-    assert found.certificate is not None
-    assert found.certificate.relative_gap <= 1e-6
+    assert optimum.floor.force_N == pytest.approx(26.07 * 0.14 * (500 * 3.141592653589793 / 30) ** 2 / 2, rel=1e-12)
+    assert after.force.peak_N >= optimum.floor.force_N * (1 - 1e-12)
+    assert optimum.certificate is not None
+    assert optimum.certificate.relative_gap <= 1e-6
 
 
 def test_optimize_says_infeasible_with_200(post: Post, body: dict[str, Any]) -> None:
     body["objective"] = {"force_ceiling_N": 1}
     answer = post("/v1/optimize", json.dumps(body))
     assert answer.status_code == 200
-    found = OptimizeAnswer.model_validate_json(answer.content)
-    assert (found.status, found.counterweights) == ("infeasible", ())
-    assert found.infeasibility is not None
-    assert found.infeasibility.conflict == ("force_ceiling_N",)
+    optimum = OptimizeAnswer.model_validate_json(answer.content)
+    assert (optimum.status, optimum.counterweights) == ("infeasible", ())
+    assert optimum.infeasibility is not None
+    assert optimum.infeasibility.conflict == ("force_ceiling_N",)
 
 
 def test_analyze_takes_what_optimize_answers(post: Post, body: dict[str, Any]) -> None:
     best = OptimizeAnswer.model_validate_json(post("/v1/optimize", json.dumps(body)).content)
-    fitted = [{"web": one.web, "mass_kg": one.mass_kg, "angle_deg": one.angle_deg} for one in best.counterweights]
+    fitted = [
+        {"web": counterweight.web, "mass_kg": counterweight.mass_kg, "angle_deg": counterweight.angle_deg}
+        for counterweight in best.counterweights
+    ]
     outputs = ["residual", "hodograph", "orders", "stages"]
     answer = post("/v1/analyze", json.dumps({**body, "counterweights": fitted, "outputs": outputs}))
     assert answer.status_code == 200
     assert answer.headers["cache-control"] == "no-store"
-    found = AnalyzeAnswer.model_validate_json(answer.content)
-    assert found.residual == best.residual
-    assert found.hodograph is not None
-    assert len(found.hodograph.angle_deg) == 360
-    assert found.orders is not None
-    assert [one.order for one in found.orders.before] == [1, 2, 4, 6]
-    assert found.stages is not None
-    assert len(found.stages) == 8
+    analysis = AnalyzeAnswer.model_validate_json(answer.content)
+    assert analysis.residual == best.residual
+    assert analysis.hodograph is not None
+    assert len(analysis.hodograph.angle_deg) == 360
+    assert analysis.orders is not None
+    assert [order.order for order in analysis.orders.before] == [1, 2, 4, 6]
+    assert analysis.stages is not None
+    assert len(analysis.stages) == 8
 
 
 def test_only_the_outputs_asked_for(post: Post, body: dict[str, Any]) -> None:
-    found = post("/v1/analyze", json.dumps({**body, "outputs": ["hodograph"]})).json()
-    assert found["hodograph"]
-    assert (found["residual"], found["orders"], found["stages"]) == (None, None, None)
+    answer = post("/v1/analyze", json.dumps({**body, "outputs": ["hodograph"]})).json()
+    assert answer["hodograph"]
+    assert (answer["residual"], answer["orders"], answer["stages"]) == (None, None, None)
 
 
 @pytest.mark.parametrize("name", names())
 def test_every_example_can_be_posted(client: TestClient, post: Post, name: str) -> None:
-    sent = client.get(f"/v1/examples/{name}")
-    assert sent.headers["content-type"] == "application/json"
-    assert sent.content == load(name)
-    OptimizeRequest.model_validate_json(sent.content)
-    answer = post("/v1/optimize", sent.content)
+    response = client.get(f"/v1/examples/{name}")
+    assert response.headers["content-type"] == "application/json"
+    assert response.content == load(name)
+    OptimizeRequest.model_validate_json(response.content)
+    answer = post("/v1/optimize", response.content)
     assert (answer.status_code, answer.json()["status"]) == (200, "optimal")
 
 
 def test_examples(client: TestClient) -> None:
     listed = client.get("/v1/examples").json()["examples"]
-    assert [one["name"] for one in listed] == sorted(names())
-    for one in listed:
-        assert set(one) == {"name", "title", "description", "gas", "links"}
-        assert isinstance(one["gas"], bool)
-        assert one["title"]
-        assert one["description"]
-        assert one["links"] == {"self": f"/v1/examples/{one['name']}", "optimize": "/v1/optimize"}
-        assert client.get(one["links"]["self"]).status_code == 200
+    assert [entry["name"] for entry in listed] == sorted(names())
+    for entry in listed:
+        assert set(entry) == {"name", "title", "description", "gas", "links"}
+        assert isinstance(entry["gas"], bool)
+        assert entry["title"]
+        assert entry["description"]
+        assert entry["links"] == {"self": f"/v1/examples/{entry['name']}", "optimize": "/v1/optimize"}
+        assert client.get(entry["links"]["self"]).status_code == 200
 
 
 @pytest.mark.parametrize(

@@ -33,10 +33,10 @@ def start(log: IO[str], fresh: bool = False, **environment: str) -> "subprocess.
 
 def address(process: "subprocess.Popen[str]") -> tuple[str, int]:
     assert process.stdout is not None
-    said = process.stdout.readline()
-    found = re.fullmatch(r"counterweight listens on (http://\S+) \(documentation at \1/docs\)\n", said)
-    assert found is not None
-    parts = urlsplit(found[1])
+    text = process.stdout.readline()
+    match = re.fullmatch(r"counterweight listens on (http://\S+) \(documentation at \1/docs\)\n", text)
+    assert match is not None
+    parts = urlsplit(match[1])
     assert parts.hostname is not None
     assert parts.port is not None
     return parts.hostname, parts.port
@@ -130,10 +130,10 @@ def test_an_orderly_end(ending: signal.Signals, fresh: bool) -> None:
 
 def test_addresses_that_cannot_be_taken() -> None:
     def refused(*arguments: str, **environment: str) -> str:
-        done = run("service", "serve", *arguments, environment={**os.environ, **environment})
-        assert (done.returncode, done.stdout) == (2, "")
-        assert "Traceback" not in done.stderr
-        return done.stderr
+        process = run("service", "serve", *arguments, environment={**os.environ, **environment})
+        assert (process.returncode, process.stdout) == (2, "")
+        assert "Traceback" not in process.stderr
+        return process.stderr
 
     with socket.create_server(("127.0.0.1", 0)) as taken:
         port = str(taken.getsockname()[1])

@@ -15,8 +15,8 @@ from service.http.stream import Stream
 _SCOPE: Any = {"type": "http", "asgi": {"spec_version": "2.4"}, "headers": [], "method": "GET"}
 
 
-@pytest.mark.parametrize("sent", [0, 1, 2, 3, 9])
-def test_what_makes_the_pieces_is_closed_at_once(sent: int) -> None:
+@pytest.mark.parametrize("count", [0, 1, 2, 3, 9])
+def test_what_makes_the_pieces_is_closed_at_once(count: int) -> None:
     """Of the head, four pieces and the end so many messages arrive."""
     ended, bodies = [], list[bytes]()
 
@@ -36,15 +36,15 @@ def test_what_makes_the_pieces_is_closed_at_once(sent: int) -> None:
         await anyio.sleep_forever()
 
     async def answered() -> None:
-        made = content()
-        response = Stream(Threads().pieces("client", chain((next(made),), made)), made, "text/plain", {})
+        data = content()
+        response = Stream(Threads().pieces("client", chain((next(data),), data)), data, "text/plain", {})
         await response(_SCOPE, receive, send)
 
-    left = [None] * sent
+    left = [None] * count
     # nothing is closed by chance
     gc.disable()
     try:
-        if sent < 5:
+        if count < 5:
             with pytest.raises(ClientDisconnect):
                 anyio.run(answered)
         else:
@@ -52,4 +52,4 @@ def test_what_makes_the_pieces_is_closed_at_once(sent: int) -> None:
     finally:
         gc.enable()
     assert ended == [True]
-    assert b"".join(bodies) == b"bcd"[: max(0, sent - 1)]
+    assert b"".join(bodies) == b"bcd"[: max(0, count - 1)]

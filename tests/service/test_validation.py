@@ -105,16 +105,16 @@ def test_one_pass_reads_what_two_do(data: st.DataObject) -> None:
     text = json.dumps(body)
     # a name that stands twice counts where it stands last
     text = text.replace('{"', '{"speed_rpm": 1, "', data.draw(st.integers(0, 2))).encode()
-    one_pass = _outcome(lambda: read_request(OptimizeRequest, text))
-    assert one_pass == _outcome(lambda: check(OptimizeRequest, read_json(text), len(text)))
+    outcome = _outcome(lambda: read_request(OptimizeRequest, text))
+    assert outcome == _outcome(lambda: check(OptimizeRequest, read_json(text), len(text)))
 
 
 @pytest.mark.parametrize("number", ["1" * 400, "1" * 401, "-" + "1" * 4000, "1" * 90_000, "0." + "1" * 500, "1e400"])
 def test_a_long_number_is_read_alike(number: str) -> None:
     """Independent, as above; what is to be verified may hold any number."""
     data = f'{{"request": {{"x": {number}}}, "answer": {{}}}}'.encode()
-    one_pass = read_request(VerifyRequest, data)
-    assert repr(one_pass) == repr(check(VerifyRequest, read_json(data), len(data)))
+    body = read_request(VerifyRequest, data)
+    assert repr(body) == repr(check(VerifyRequest, read_json(data), len(data)))
 
 
 def test_readable() -> None:
@@ -150,14 +150,14 @@ def test_bytes_are_read_as_the_library_of_python_reads_them(text: str) -> None:
 @pytest.mark.parametrize("text", ["NaN", "Infinity", "-Infinity", "1e999", "-1e999", "1" * 5000, "1" * 400])
 def test_numbers_that_are_none_name_their_field(body: dict[str, Any], text: str) -> None:
     body["machine"]["speed_rpm"] = "?"
-    sent = json.dumps(body).replace('"?"', text).encode()
-    assert list(complaints(read_json(sent))) == ["/machine/speed_rpm"]
+    variant = json.dumps(body).replace('"?"', text).encode()
+    assert list(complaints(read_json(variant))) == ["/machine/speed_rpm"]
 
 
 @pytest.mark.parametrize("text", ["NaN", "Infinity", "1e999", "1" * 5000])
 def test_whole_numbers_that_are_none_name_their_field(text: str) -> None:
-    sent = json.dumps(scroll(count="?")).replace('"?"', text).encode()
-    assert list(complaints(read_json(sent))) == ["/machine/anti_rotation/count"]
+    variant = json.dumps(scroll(count="?")).replace('"?"', text).encode()
+    assert list(complaints(read_json(variant))) == ["/machine/anti_rotation/count"]
 
 
 @pytest.mark.parametrize("root", [None, True, 1, "text", [], [{}], float("nan")])
@@ -220,10 +220,10 @@ NAMES = f"{', '.join(_FIRST)} or {_LAST}"
 )
 def test_each_field_is_named(body: dict[str, Any], path: str, value: object, message: str | None) -> None:
     set_at(body, path, value)
-    found = complaints(body)
+    actual_complaints = complaints(body)
     if message is not None:
-        assert found == {path: message}
-    assert len(found) == 1
+        assert actual_complaints == {path: message}
+    assert len(actual_complaints) == 1
 
 
 def test_pointers_below_and_beside(body: dict[str, Any]) -> None:
@@ -326,11 +326,11 @@ def test_a_very_long_name_is_not_repeated(body: dict[str, Any]) -> None:
 def test_the_work_and_the_answer_are_bounded(body: dict[str, Any], wrong: dict[str, Any]) -> None:
     body["machine"] |= wrong
     start = time.thread_time()
-    found = complaints(body)
+    actual_complaints = complaints(body)
     # regression: about 0.6 s of this thread's own work, whatever else the processor does; unbounded 3 s and more
     assert time.thread_time() - start < 2.5
-    assert 1 <= len(found) <= MAX_ERRORS
-    assert len(str(found)) < 20_000
+    assert 1 <= len(actual_complaints) <= MAX_ERRORS
+    assert len(str(actual_complaints)) < 20_000
 
 
 def test_long_lists_are_refused_by_their_length(body: dict[str, Any]) -> None:

@@ -27,16 +27,16 @@ BODY = bodies("")["2d12"]
 
 @pytest.fixture(scope="module")
 def answer() -> dict[str, Any]:
-    found: dict[str, Any] = optimize(OptimizeRequest.model_validate(BODY)).model_dump(mode="json")
-    return found
+    fields: dict[str, Any] = optimize(OptimizeRequest.model_validate(BODY)).model_dump(mode="json")
+    return fields
 
 
 @pytest.fixture
 def files(answer: dict[str, Any], tmp_path: Path) -> tuple[Path, Path]:
-    request, told = tmp_path / "request.json", tmp_path / "answer.json"
+    request, path = tmp_path / "request.json", tmp_path / "answer.json"
     request.write_text(json.dumps(BODY))
-    told.write_text(json.dumps(answer))
-    return request, told
+    path.write_text(json.dumps(answer))
+    return request, path
 
 
 def alone(folder: Path, *arguments: str) -> subprocess.CompletedProcess[str]:
@@ -81,7 +81,7 @@ def test_a_broken_claim_has_an_exit_code(files: tuple[Path, Path], answer: dict[
 
 
 @pytest.mark.parametrize(
-    ("text", "said"),
+    ("text", "words"),
     [
         ("{", "not JSON"),
         ("[" * 100_000, "nested"),
@@ -91,13 +91,13 @@ def test_a_broken_claim_has_an_exit_code(files: tuple[Path, Path], answer: dict[
         ("1" * 5000, ""),
     ],
 )
-def test_what_cannot_be_read_is_said(files: tuple[Path, Path], text: str, said: str) -> None:
+def test_what_cannot_be_read_is_said(files: tuple[Path, Path], text: str, words: str) -> None:
     files[1].write_text(text)
     by_itself, by_command = alone(files[0].parent, *map(str, files)), command(*map(str, files))
-    for code, told in ((by_itself.returncode, by_itself.stderr), (by_command.exit_code, by_command.stderr)):
+    for code, stderr in ((by_itself.returncode, by_itself.stderr), (by_command.exit_code, by_command.stderr)):
         assert code == 2
-        assert said in told
-        assert "Traceback" not in told
+        assert words in stderr
+        assert "Traceback" not in stderr
 
 
 def test_files_that_are_not_there(files: tuple[Path, Path]) -> None:
@@ -117,19 +117,19 @@ def test_what_is_not_covered_has_an_exit_code_of_its_own(tmp_path: Path) -> None
         file.write_text(json.dumps(held))
     by_file, by_command = alone(tmp_path, *map(str, files)), command(*map(str, files))
     assert (by_file.returncode, by_command.exit_code) == (3, 3)
-    found = json.loads(command(*map(str, files), "--json").stdout)
-    assert found["verdict"] == "not covered"
-    assert found["not_covered"] == [unproven]
-    assert found["checked"] < found["leaves"]
-    for told in (by_file.stdout, by_command.stdout):
-        assert unproven in told
-        assert f"{found['checked']} of {found['leaves']}" in told
+    verdict = json.loads(command(*map(str, files), "--json").stdout)
+    assert verdict["verdict"] == "not covered"
+    assert verdict["not_covered"] == [unproven]
+    assert verdict["checked"] < verdict["leaves"]
+    for stdout in (by_file.stdout, by_command.stdout):
+        assert unproven in stdout
+        assert f"{verdict['checked']} of {verdict['leaves']}" in stdout
 
 
 def test_every_claim_of_an_answer_is_counted(answer: dict[str, Any]) -> None:
-    found = checker().verify(BODY, answer)
-    assert found["checked"] == found["leaves"] > 150
-    assert found["not_covered"] == []
+    verdict = checker().verify(BODY, answer)
+    assert verdict["checked"] == verdict["leaves"] > 150
+    assert verdict["not_covered"] == []
 
 
 def test_file_command_and_route_say_the_same(client: TestClient, files: tuple[Path, Path], answer: Any) -> None:

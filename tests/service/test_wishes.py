@@ -15,12 +15,12 @@ def request(**headers: str) -> Request:
 
 
 def test_equal_headers_are_read_once_for_each_computation() -> None:
-    asked = {"content_type": "application/json", "accept_encoding": "gzip"}
-    first = _wishes(request(**asked, user_agent="a"), COMPUTATIONS["optimize"])
-    assert _wishes(request(**asked, user_agent="b"), COMPUTATIONS["optimize"]) is first
-    assert _wishes(request(**asked, prefer="respond-async"), COMPUTATIONS["optimize"]).later
+    fields = {"content_type": "application/json", "accept_encoding": "gzip"}
+    first = _wishes(request(**fields, user_agent="a"), COMPUTATIONS["optimize"])
+    assert _wishes(request(**fields, user_agent="b"), COMPUTATIONS["optimize"]) is first
+    assert _wishes(request(**fields, prefer="respond-async"), COMPUTATIONS["optimize"]).later
     assert not first.later
-    report = _wishes(request(**asked, accept="application/pdf"), COMPUTATIONS["report"])
+    report = _wishes(request(**fields, accept="application/pdf"), COMPUTATIONS["report"])
     assert (report.form.media_type, first.form.media_type) == ("application/pdf", "application/json")
 
 

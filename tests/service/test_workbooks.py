@@ -26,8 +26,8 @@ def post_workbook(client: TestClient) -> Callable[..., Any]:
     """Post a workbook."""
 
     def send(content: bytes, path: str = OPTIMIZE, **headers: str) -> Any:
-        given = {name.replace("_", "-"): value for name, value in headers.items()}
-        return client.post(path, content=content, headers={"Content-Type": XLSX, **given})
+        fields = {name.replace("_", "-"): value for name, value in headers.items()}
+        return client.post(path, content=content, headers={"Content-Type": XLSX, **fields})
 
     return send
 
@@ -42,7 +42,7 @@ def packed(parts: dict[str, bytes]) -> bytes:
 
 def with_part(content: bytes, name: str, change: Callable[[bytes], bytes]) -> bytes:
     with ZipFile(io.BytesIO(content)) as archive:
-        parts = {each: archive.read(each) for each in archive.namelist()}
+        parts = {text: archive.read(text) for text in archive.namelist()}
     parts[name] = change(parts.get(name, b""))
     return packed(parts)
 
@@ -51,15 +51,15 @@ def test_a_template_comes_back_as_an_answer(client: TestClient, post_workbook: C
     template = client.get("/v1/template.xlsx", params={"example": "2d12"})
     assert template.headers["content-type"] == XLSX
     assert 'filename="machine.xlsx"' in template.headers["content-disposition"]
-    sent = post_workbook(template.content, Accept=XLSX)
-    assert (sent.status_code, sent.headers["content-type"]) == (200, XLSX)
-    assert sent.headers["vary"].startswith("Accept, Accept-Encoding")
-    sheets = workbook_sheets(sent.content)
-    told = {str(name): value for name, value in (line[:2] for line in sheets["answer"])}
-    assert told["status"] == "optimal"
+    response = post_workbook(template.content, Accept=XLSX)
+    assert (response.status_code, response.headers["content-type"]) == (200, XLSX)
+    assert response.headers["vary"].startswith("Accept, Accept-Encoding")
+    sheets = workbook_sheets(response.content)
+    fields = {str(name): value for name, value in (line[:2] for line in sheets["answer"])}
+    assert fields["status"] == "optimal"
     # and posted once more, the sheets of the answer say nothing of the machine
-    again = post_workbook(sent.content).json()
-    assert again["total_mass_kg"] == pytest.approx(told["total_mass_kg"], rel=1e-12)
+    again = post_workbook(response.content).json()
+    assert again["total_mass_kg"] == pytest.approx(fields["total_mass_kg"], rel=1e-12)
 
 
 def test_a_workbook_may_be_answered_in_json_and_json_in_a_workbook(
@@ -67,9 +67,9 @@ def test_a_workbook_may_be_answered_in_json_and_json_in_a_workbook(
 ) -> None:
     plain = post(OPTIMIZE, json.dumps(body)).json()
     assert post_workbook(workbook(request_sheets(body))).json()["counterweights"] == plain["counterweights"]
-    sent = post(OPTIMIZE, json.dumps(body), Accept=f"application/json;q=0.5, {XLSX}")
-    assert sent.headers["content-type"] == XLSX
-    assert len(workbook_sheets(sent.content)["counterweights"]) == 1 + len(plain["counterweights"])
+    response = post(OPTIMIZE, json.dumps(body), Accept=f"application/json;q=0.5, {XLSX}")
+    assert response.headers["content-type"] == XLSX
+    assert len(workbook_sheets(response.content)["counterweights"]) == 1 + len(plain["counterweights"])
 
 
 @pytest.mark.parametrize("accept", ["*/*", "text/html", "application/json", "application/*"])
@@ -80,24 +80,24 @@ def test_who_does_not_ask_for_a_workbook_gets_json(post: Callable[..., Any], bod
 def test_what_is_wrong_is_said_with_its_cell(post_workbook: Callable[..., Any], body: dict[str, Any]) -> None:
     body["machine"]["webs"][1]["max_mass_kg"] = -3
     del body["machine"]["throws"][0]["crank_radius_m"]
-    sent = post_workbook(workbook(request_sheets(body)))
-    assert sent.status_code == 422
-    told = {one["pointer"]: one["message"] for one in sent.json()["errors"]}
-    assert told["/machine/webs/1/max_mass_kg"].startswith("webs!")
-    assert told["/machine/throws/0/crank_radius_m"] == "throws, line 2: crank_radius_m: this field is required"
+    response = post_workbook(workbook(request_sheets(body)))
+    assert response.status_code == 422
+    messages = {error["pointer"]: error["message"] for error in response.json()["errors"]}
+    assert messages["/machine/webs/1/max_mass_kg"].startswith("webs!")
+    assert messages["/machine/throws/0/crank_radius_m"] == "throws, line 2: crank_radius_m: this field is required"
 
 
 def test_what_cannot_be_computed_is_said_with_its_cell(post_workbook: Callable[..., Any], body: dict[str, Any]) -> None:
     del body["machine"]["flywheel"]
-    sent = post_workbook(workbook(request_sheets({**body, "outputs": ["flywheel"]})))
-    assert sent.status_code == 422
-    assert sent.json()["errors"][0]["message"].startswith("machine: machine.")
+    response = post_workbook(workbook(request_sheets({**body, "outputs": ["flywheel"]})))
+    assert response.status_code == 422
+    assert response.json()["errors"][0]["message"].startswith("machine: machine.")
 
 
 def test_sheets_that_say_nothing_of_a_machine(post_workbook: Callable[..., Any]) -> None:
-    sent = post_workbook(workbook({"machines": [["field", "value"]]}))
-    assert sent.status_code == 422
-    assert sent.json()["errors"][0]["message"].startswith("machines: no sheet of a machine")
+    response = post_workbook(workbook({"machines": [["field", "value"]]}))
+    assert response.status_code == 422
+    assert response.json()["errors"][0]["message"].startswith("machines: no sheet of a machine")
 
 
 def test_a_formula_is_never_computed(post_workbook: Callable[..., Any], body: dict[str, Any]) -> None:
@@ -107,16 +107,16 @@ def test_a_formula_is_never_computed(post_workbook: Callable[..., Any], body: di
     book["webs"]["B2"] = "=1+1"
     out = io.BytesIO()
     book.save(out)
-    sent = post_workbook(out.getvalue())
-    assert sent.status_code == 422
-    assert sent.json()["errors"][0]["message"].startswith("webs!B2: a formula without a value")
+    response = post_workbook(out.getvalue())
+    assert response.status_code == 422
+    assert response.json()["errors"][0]["message"].startswith("webs!B2: a formula without a value")
 
 
 def test_a_text_that_begins_like_a_formula_stays_text(post_workbook: Callable[..., Any], body: dict[str, Any]) -> None:
     body["machine"]["webs"][0]["name"] = '=HYPERLINK("http://127.0.0.1")'
-    sent = post_workbook(workbook(request_sheets(body)), Accept=XLSX)
-    assert sent.status_code == 200
-    book = openpyxl.load_workbook(io.BytesIO(sent.content))
+    response = post_workbook(workbook(request_sheets(body)), Accept=XLSX)
+    assert response.status_code == 200
+    book = openpyxl.load_workbook(io.BytesIO(response.content))
     cells = [cell for sheet in book for line in sheet.iter_rows() for cell in line]
     assert any(cell.value == '=HYPERLINK("http://127.0.0.1")' for cell in cells)
     assert not [cell for cell in cells if cell.data_type == "f"]
@@ -136,7 +136,7 @@ def entities(content: bytes) -> bytes:
 
 
 @pytest.mark.parametrize(
-    ("change", "said"),
+    ("change", "text"),
     [
         (lambda content: b"", "no xlsx"),
         (lambda content: b"{}", "no xlsx"),
@@ -155,12 +155,12 @@ def entities(content: bytes) -> bytes:
     ],
 )
 def test_what_is_no_workbook_is_refused(
-    post_workbook: Callable[..., Any], body: dict[str, Any], change: Callable[[bytes], bytes], said: str
+    post_workbook: Callable[..., Any], body: dict[str, Any], change: Callable[[bytes], bytes], text: str
 ) -> None:
-    sent = post_workbook(change(workbook(request_sheets(body))))
-    assert sent.status_code == 400
-    assert sent.json()["type"] == "/problems/unreadable-body"
-    assert said in sent.json()["detail"]
+    response = post_workbook(change(workbook(request_sheets(body))))
+    assert response.status_code == 400
+    assert response.json()["type"] == "/problems/unreadable-body"
+    assert text in response.json()["detail"]
 
 
 def test_a_workbook_that_is_too_large_is_not_read(post_workbook: Callable[..., Any]) -> None:
@@ -209,10 +209,10 @@ def test_the_request_in_a_workbook_is_the_one_that_was_written(
 def test_the_sheets_of_an_answer_are_no_part_of_the_request(
     post_workbook: Callable[..., Any], body: dict[str, Any]
 ) -> None:
-    sent = workbook(request_sheets(body))
-    answered = post_workbook(sent, Accept=XLSX).content
+    actual_workbook = workbook(request_sheets(body))
+    answered = post_workbook(actual_workbook, Accept=XLSX).content
     assert {"answer", "counterweights"} <= workbook_sheets(answered).keys()
-    assert post_workbook(answered, CONVERT).json() == post_workbook(sent, CONVERT).json()
+    assert post_workbook(answered, CONVERT).json() == post_workbook(actual_workbook, CONVERT).json()
 
 
 def test_a_quantity_is_read_in_the_unit_of_its_field(post_workbook: Callable[..., Any], body: dict[str, Any]) -> None:

@@ -22,8 +22,8 @@ class ToyAnswer(Model):
     total: float = Field(description="the sum", examples=[3.0])
 
 
-def add(asked: ToyRequest) -> ToyAnswer:
-    return ToyAnswer(total=asked.one + asked.other)
+def add(request: ToyRequest) -> ToyAnswer:
+    return ToyAnswer(total=request.one + request.other)
 
 
 def added(_: ToyRequest, answer: ToyAnswer) -> Iterator[Chapter]:

@@ -10,23 +10,23 @@ _HEADS = ("machine", "quantity", "against", "theirs", "ours", "difference", "all
 
 
 def main() -> int:
-    found = []
+    comparisons = []
     for title, compared in pack.CHAPTERS.items():
         lines = list(compared())
         print(f"\n{title}\n")
-        _print([_HEADS, *((*one.cells, "" if one.agrees else "DIFFERS") for one in lines)])
-        found += lines
+        _print([_HEADS, *((*line.cells, "" if line.agrees else "DIFFERS") for line in lines)])
+        comparisons += lines
     print("\nMisprints of the sources\n")
     wrong = list(pack.misprints())
     heads = ("place", "printed", "right", "ours", "unit", "reason")
-    _print([heads, *((one.place, *pack.figures(one), one.reason) for one in wrong)])
-    found += [one.right for one in wrong]
-    return _verdict(found)
+    _print([heads, *((misprint.place, *pack.figures(misprint), misprint.reason) for misprint in wrong)])
+    comparisons += [misprint.right for misprint in wrong]
+    return _verdict(comparisons)
 
 
-def _verdict(found: Sequence[Comparison]) -> int:
-    differing = sum(not one.agrees for one in found)
-    print(f"\n{len(found)} comparisons, {differing} beyond what printing or method allow")
+def _verdict(comparisons: Sequence[Comparison]) -> int:
+    differing = sum(not comparison.agrees for comparison in comparisons)
+    print(f"\n{len(comparisons)} comparisons, {differing} beyond what printing or method allow")
     return int(differing > 0)
 
 

@@ -70,7 +70,7 @@ PUBLISHED = (
     Arrangement("W 60 deg", [(0, (150.0, 90.0, 30.0))], 1.5, 0, 1.5, 0),
     Arrangement("in-line three", [(0, _UP), (120, _UP), (240, _UP)], 0, _ROOT(3), 0, _ROOT(3), kind="analytic"),
     Arrangement("in-line four", [(0, _UP), (180, _UP), (180, _UP), (0, _UP)], 0, 0, 4, 0, kind="analytic"),
-    Arrangement("in-line five, 1-2-4-5-3", [(one, _UP) for one in _FIVE], 0, _couple(1), 0, _couple(2),
+    Arrangement("in-line five, 1-2-4-5-3", [(value, _UP) for value in _FIVE], 0, _couple(1), 0, _couple(2),
                 kind="analytic"),
     Arrangement("in-line six", [(a, _UP) for a in (0, 120, 240, 240, 120, 0)], 0, 0, 0, 0, kind="analytic"),
     Arrangement("boxer four", [(0, (0,)), (180, (180,)), (180, (0,)), (0, (180,))], 0, 0, 0, 2, kind="analytic"),
@@ -141,13 +141,15 @@ def misprints() -> Iterator[Misprint]:
 
 
 def _orders(of: Arrangement) -> Any:
-    found = analyze(AnalyzeRequest.model_validate({"machine": machine(of), "outputs": ["orders"]})).orders
-    assert found is not None
-    return found.before
+    orders = analyze(AnalyzeRequest.model_validate({"machine": machine(of), "outputs": ["orders"]})).orders
+    assert orders is not None
+    return orders.before
 
 
 def _force_of_v(axis: float, turn: float) -> complex:
     """First-order force of a V by its phasors, its second axis behind the first in the sense of rotation."""
     first = _orders(Arrangement("", [(0, (0.0, -float(np.rad2deg(axis))))], 0, 0, 0, 0))[0].force
-    co, counter = (complex(one.real_N, one.imag_N) for one in (first.co_rotating, first.counter_rotating))
+    co, counter = (
+        complex(rotating.real_N, rotating.imag_N) for rotating in (first.co_rotating, first.counter_rotating)
+    )
     return complex(co * np.exp(1j * turn) + counter * np.exp(-1j * turn))

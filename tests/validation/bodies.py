@@ -12,7 +12,7 @@ from schemas.machine.reciprocating import ReciprocatingMachine
 from schemas.request.requests import AnalyzeRequest
 from service.documents.examples import load
 from tests.validation.comparison import Comparison
-from tests.validation.multibody import STEPS, OneTurn, one_turn
+from tests.validation.multibody import STEPS, Revolution, revolution
 
 #: example, planes of its two bearings, and counterweights on its webs as mass and angle
 MACHINES: dict[str, tuple[tuple[float, float], list[tuple[float, float]]]] = {
@@ -54,13 +54,13 @@ def _machine(name: str) -> Iterator[Comparison]:
     answer = analyze(request)
     places_of_throws = [throw["position_m"] for throw in machine["throws"]]
     reference = 0.5 * (min(places_of_throws) + max(places_of_throws))
-    turn = one_turn(machine, counterweights, reference)
+    turn = revolution(machine, counterweights, reference)
     yield from _against(name, answer, turn)
 
 
-def _against(name: str, answer: Any, turn: OneTurn) -> Iterator[Comparison]:
+def _against(name: str, answer: Any, turn: Revolution) -> Iterator[Comparison]:
     for order in (1, 2):
-        (ours,) = (one for one in answer.orders.after if one.order == order)
+        (ours,) = (entry for entry in answer.orders.after if entry.order == order)
         force, moment = _peak(turn.force, order), _peak(turn.moment, order)
         allowed = _METHOD * float(np.max(np.abs(turn.force))), _METHOD * float(np.max(np.abs(turn.moment)))
         yield _line(name, f"force of order {order}", force, ours.force.peak_N, allowed[0], "N")

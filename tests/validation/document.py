@@ -19,15 +19,18 @@ def table(heads: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
     return "\n".join(lines)
 
 
-def of_comparisons(found: Iterable[Comparison]) -> str:
-    return table(_HEADS, (one.cells for one in found))
+def of_comparisons(comparisons: Iterable[Comparison]) -> str:
+    return table(_HEADS, (comparison.cells for comparison in comparisons))
 
 
-def of_misprints(found: Iterable[Misprint]) -> str:
-    return table(_WRONG, ((f"{one.source}: {one.place}", *pack.figures(one), one.reason) for one in found))
+def of_misprints(misprints: Iterable[Misprint]) -> str:
+    return table(
+        _WRONG,
+        ((f"{misprint.source}: {misprint.place}", *pack.figures(misprint), misprint.reason) for misprint in misprints),
+    )
 
 
-def shown(title: str) -> list[list[str]]:
+def table_rows(title: str) -> list[list[str]]:
     """Rows of the table below a heading, as they stand in the document."""
     lines = [line for line in _section(DOCUMENT.read_text(), title).split("\n") if line.startswith("| ")]
     return [[cell.strip() for cell in line.strip("|").split("|")] for line in lines[2:]]
@@ -37,10 +40,10 @@ def _section(text: str, title: str) -> str:
     return text.split(f"\n## {title}\n")[1].split("\n## ")[0]
 
 
-def _put(text: str, title: str, made: str) -> str:
+def _put(text: str, title: str, figure: str) -> str:
     whole = _section(text, title)
     words = re.sub(r"\n\|.*", "", whole, flags=re.DOTALL).rstrip("\n")
-    return text.replace(whole, f"{words}\n\n{made}\n", 1)
+    return text.replace(whole, f"{words}\n\n{figure}\n", 1)
 
 
 def main() -> None:

@@ -19,7 +19,7 @@ _HEAVY = 1e7
 
 
 @dataclass(frozen=True)
-class OneTurn:
+class Revolution:
     """What the shaft and the crossheads put on the frame over one turn, as drawn; complex for x + jy."""
 
     angle_deg: Real  # (T,)
@@ -28,7 +28,7 @@ class OneTurn:
     moment: Complex  # (T,) N m, sum of (z - reference) F
 
 
-def one_turn(machine: dict[str, Any], counterweights: list[dict[str, Any]], reference_m: float) -> OneTurn:
+def revolution(machine: dict[str, Any], counterweights: list[dict[str, Any]], reference_m: float) -> Revolution:
     """Integrate one turn of a machine as posted, counter-clockwise, with two bearings.
 
     Parameters
@@ -61,7 +61,8 @@ def one_turn(machine: dict[str, Any], counterweights: list[dict[str, Any]], refe
             places.append(place)
     kind = exu.OutputVariableType.ForceLocal
     sensors = [
-        system.AddSensor(SensorObject(objectNumber=one, outputVariableType=kind, storeInternal=True)) for one in joints
+        system.AddSensor(SensorObject(objectNumber=joint, outputVariableType=kind, storeInternal=True))
+        for joint in joints
     ]
     system.Assemble()
     _integrate(exu, system, 2.0 * np.pi / omega)
@@ -70,7 +71,7 @@ def one_turn(machine: dict[str, Any], counterweights: list[dict[str, Any]], refe
     force = (stored[..., 0] + 1j * stored[..., 1]) * np.array(turned)[:, None]
     arm = np.array(places)[:, None] - reference_m
     angle = 360.0 / STEPS * np.arange(STEPS)
-    return OneTurn(angle, force[: len(machine["bearings"])], np.sum(force, axis=0), np.sum(arm * force, axis=0))
+    return Revolution(angle, force[: len(machine["bearings"])], np.sum(force, axis=0), np.sum(arm * force, axis=0))
 
 
 def _unit(angle_deg: float) -> complex:

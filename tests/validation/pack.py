@@ -24,6 +24,11 @@ def misprints() -> Iterator[Misprint]:
     yield from rotor.misprints()
 
 
-def figures(one: Misprint) -> tuple[str, ...]:
+def figures(misprint: Misprint) -> tuple[str, ...]:
     """What is printed, what is right, ours, and the unit."""
-    return f"{one.printed:.6g}", f"{one.right.expected:.6g}", f"{one.right.ours:.6g}", one.right.unit
+    return (
+        f"{misprint.printed:.6g}",
+        f"{misprint.right.expected:.6g}",
+        f"{misprint.right.ours:.6g}",
+        misprint.right.unit,
+    )

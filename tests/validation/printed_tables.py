@@ -36,27 +36,27 @@ _UNITS = {"mm": "mm", "MPa": "MPa", "kN": "kN", "factor": "-", "c_series": "m/s"
 
 def comparisons() -> Iterator[Comparison]:
     """One for each column: the largest difference to the printed figures that stand, as ours less theirs."""
-    printed, found = compressor.table("printed"), figures(ROUNDED)
+    printed, numbers = compressor.table("printed"), figures(ROUNDED)
     moving = printed["angle_deg"] % 180.0 != 0.0
     for number, columns in TABLES.items():
         for name in columns:
             # where the piston stands still the source gives friction a sign, and we none
             stands = np.isfinite(printed[name]) & (moving if name.endswith("sum_kN") else True)
-            off = np.where(stands, found[name] - printed[name], 0.0)
+            off = np.where(stands, numbers[name] - printed[name], 0.0)
             worst = int(np.argmax(np.abs(off)))
             quantity = f"table {number}, {name}: worst of {int(np.sum(stands))} figures"
             unit = _UNITS.get(name, _UNITS.get(name.rsplit("_", 1)[-1], "-"))
-            theirs, ours = float(printed[name][worst]), float(found[name][worst])
+            theirs, ours = float(printed[name][worst]), float(numbers[name][worst])
             yield Comparison(MACHINE, quantity, "published", theirs, ours, rounding(name), unit)
 
 
 def misprints() -> Iterator[Misprint]:
     """Printed figures that are wrong, with the corrected ones, recomputed apart from the mechanics."""
-    found, right = figures(ROTATING), compressor.table("corrected")
+    numbers, right = figures(ROTATING), compressor.table("corrected")
 
     def at(place: str, name: str, angle: int, printed: float, reason: str) -> Misprint:
         k = angle // 10
-        expected, ours = float(right[name][k]), float(found[name][k])
+        expected, ours = float(right[name][k]), float(numbers[name][k])
         compared = Comparison(MACHINE, f"{name} at {angle} deg", "analytic", expected, ours, 6e-5, "kN")
         return Misprint(SOURCE, place, printed, compared, reason)
 

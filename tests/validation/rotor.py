@@ -44,23 +44,23 @@ _WEIGHTS = ((3.402, 91), (2.325, 354), (1.361, 318), (1.786, 305))
 
 def _vectors(pairs: tuple[tuple[float, float], ...]) -> Complex:
     size, angle = np.array(pairs, dtype=float).T
-    found: Complex = size * direction(angle)
-    return found
+    extent: Complex = size * direction(angle)
+    return extent
 
 
 _NAME = "rotor of Foiles, Allaire and Gunter"
 
 
-def _found() -> ConeSolution:
+def _solution() -> ConeSolution:
     rows = [
-        Row(str(k), (weighted_peak(Response(str(k), "N", Phasors(np.asarray(reading), np.asarray(0j)), each), 1.0),))
-        for k, (reading, each) in enumerate(zip(_vectors(_READINGS), _influence(), strict=True))
+        Row(str(k), (weighted_peak(Response(str(k), "N", Phasors(np.asarray(reading), np.asarray(0j)), value), 1.0),))
+        for k, (reading, value) in enumerate(zip(_vectors(_READINGS), _influence(), strict=True))
     ]
     free, ones = np.ones(4, bool), np.ones(4)
     limits = Limits(ones, _MOST * ones, free, ones + 0j, 0.0 * ones, ones, np.asarray(np.inf))
-    found = optima(statement([rows], [], limits).alone(), 1e-7, False).single()
-    assert isinstance(found, ConeSolution)
-    return found
+    solution = optima(statement([rows], [], limits).alone(), 1e-7, False).single()
+    assert isinstance(solution, ConeSolution)
+    return solution
 
 
 def _influence() -> Complex:
@@ -72,13 +72,13 @@ def _left(weights: Complex) -> float:
 
 
 def comparisons() -> Iterator[Comparison]:
-    found, theirs = _found(), _vectors(_WEIGHTS)
+    solution, theirs = _solution(), _vectors(_WEIGHTS)
     # what half a digit of each weight and half a degree may change
     printing = float(np.max(np.abs(_influence()) @ (5e-4 + np.abs(theirs) * np.deg2rad(0.5))))
-    yield Comparison(_NAME, "largest vibration left", "published", _left(theirs), found.objective, printing, "-")
+    yield Comparison(_NAME, "largest vibration left", "published", _left(theirs), solution.objective, printing, "-")
     bound = "the same, proven for all weights"
-    yield Comparison(_NAME, bound, "independent", found.objective, found.lower_bound, 1e-5, "-")
-    for k, (weight, ours) in enumerate(zip(theirs, found.unbalance, strict=True)):
+    yield Comparison(_NAME, bound, "independent", solution.objective, solution.lower_bound, 1e-5, "-")
+    for k, (weight, ours) in enumerate(zip(theirs, solution.unbalance, strict=True)):
         sizes = float(np.abs(weight)), float(np.abs(ours))
         yield Comparison(_NAME, f"weight in plane {k + 1}", "published", *sizes, 0.01, "-")
         angle = float(_WEIGHTS[k][1])
@@ -90,10 +90,10 @@ def comparisons() -> Iterator[Comparison]:
 
 def misprints() -> Iterator[Misprint]:
     """The angle of plane 4: the best one for the other weights as printed, by trying all of them."""
-    *others, last = _vectors(_WEIGHTS)
+    *vectors, last = _vectors(_WEIGHTS)
     angles = np.arange(295.0, 325.0, 0.01)
-    left = [_left(np.array([*others, np.abs(last) * direction(angle)])) for angle in angles]
-    ours = float(np.mod(np.rad2deg(np.angle(_found().unbalance[3])), 360.0))
+    left = [_left(np.array([*vectors, np.abs(last) * direction(angle)])) for angle in angles]
+    ours = float(np.mod(np.rad2deg(np.angle(_solution().unbalance[3])), 360.0))
     right = Comparison(_NAME, "angle in plane 4", "independent", float(angles[np.argmin(left)]), ours, 1.0, "deg")
     reason = f"with it {_left(_vectors(_WEIGHTS)):.4g} is left, with the right one {min(left):.4g}"
     yield Misprint("Foiles, Allaire and Gunter, as quoted", "weight in plane 4, angle", 305.0, right, reason)

@@ -18,10 +18,10 @@ def _ask(**body: Any) -> PinLoadsAnswer:
 
 def comparisons() -> Iterator[Comparison]:
     for count in (3, 4, 6):
-        found = _ask(pin_count=count, pin_circle_radius_m=_RADIUS)
+        analysis = _ask(pin_count=count, pin_circle_radius_m=_RADIUS)
         machine, peak = f"{count} even pins", 2.0 * _TORQUE / (count * _RADIUS)
-        work, half = found.energy.pins_work_J, found.half_turn_mechanism_peak_N
-        yield Comparison(machine, "Q_max, equation (3)", "published", peak, found.peak_N or np.nan, 1e-9, "N")
+        work, half = analysis.energy.pins_work_J, analysis.half_turn_mechanism_peak_N
+        yield Comparison(machine, "Q_max, equation (3)", "published", peak, analysis.peak_N or np.nan, 1e-9, "N")
         yield Comparison(machine, "W_Q, equation (2)", "published", -np.pi * peak * _RADIUS, work, 1e-9, "J")
         yield Comparison(machine, "half-turn mechanism, peak over ours", "published", 2.0, half / peak, 1e-12, "-")
     two, three = ([{"angle_deg": angle, "radius_m": _RADIUS} for angle in of] for of in ((0, 90), (0, 110, 250)))

@@ -10,41 +10,45 @@ from service.documents.examples import bodies as examples
 from tests.validation import bodies, pack
 from tests.validation.comparison import Comparison
 from tests.validation.contents import CONTENTS
-from tests.validation.document import DOCUMENT, MISPRINTS, shown
+from tests.validation.document import DOCUMENT, MISPRINTS, table_rows
 
 ROOT = Path(__file__).parents[2]
 
 
 @pytest.mark.parametrize("title", pack.AT_ONCE)
 def test_all_agree_as_the_document_says(title: str) -> None:
-    found = list(pack.CHAPTERS[title]())
-    assert [one for one in found if not one.agrees] == []
-    rows = shown(title)
-    assert [row[:4] for row in rows] == [list(one.cells[:4]) for one in found]
-    for row, one in zip(rows, found, strict=True):
-        assert float(row[4]) == pytest.approx(one.ours, rel=1e-5, abs=max(1e-9, 1e-5 * one.allowed))
+    comparisons = list(pack.CHAPTERS[title]())
+    assert [comparison for comparison in comparisons if not comparison.agrees] == []
+    rows = table_rows(title)
+    assert [row[:4] for row in rows] == [list(comparison.cells[:4]) for comparison in comparisons]
+    for row, single_comparison in zip(rows, comparisons, strict=True):
+        assert float(row[4]) == pytest.approx(
+            single_comparison.ours, rel=1e-5, abs=max(1e-9, 1e-5 * single_comparison.allowed)
+        )
 
 
 def test_misprints_are_as_the_document_says() -> None:
-    found = list(pack.misprints())
-    assert [one for one in found if not one.right.agrees] == []
+    misprints = list(pack.misprints())
+    assert [misprint for misprint in misprints if not misprint.right.agrees] == []
     # a misprint that is right would be none
-    assert [one for one in found if abs(one.printed - one.right.expected) <= one.right.allowed] == []
-    rows = shown(MISPRINTS)
-    assert [row[0] for row in rows] == [f"{one.source}: {one.place}" for one in found]
-    for row, one in zip(rows, found, strict=True):
-        assert float(row[3]) == pytest.approx(one.right.ours, rel=1e-5, abs=1e-9)
+    assert [
+        misprint for misprint in misprints if abs(misprint.printed - misprint.right.expected) <= misprint.right.allowed
+    ] == []
+    rows = table_rows(MISPRINTS)
+    assert [row[0] for row in rows] == [f"{misprint.source}: {misprint.place}" for misprint in misprints]
+    for row, single_misprint in zip(rows, misprints, strict=True):
+        assert float(row[3]) == pytest.approx(single_misprint.right.ours, rel=1e-5, abs=1e-9)
 
 
 def test_rigid_bodies_independent() -> None:
     pytest.importorskip("exudyn", reason="a development extra, not made for every platform")
-    found = list(bodies.comparisons(("v90-equal",)))
-    assert len(found) == 8
-    assert [one for one in found if not one.agrees] == []
+    comparisons = list(bodies.comparisons(("v90-equal",)))
+    assert len(comparisons) == 8
+    assert [comparison for comparison in comparisons if not comparison.agrees] == []
 
 
 def test_the_document_has_every_machine_of_the_multibody_program() -> None:
-    rows = shown("Rigid bodies in EXUDYN")
+    rows = table_rows("Rigid bodies in EXUDYN")
     assert list(dict.fromkeys(row[0] for row in rows)) == list(bodies.MACHINES)
     for row in rows:
         theirs, ours, allowed = float(row[3]), float(row[4]), float(row[6])
@@ -81,7 +85,7 @@ def test_the_contents_name_what_there_is() -> None:
 
 
 def test_a_figure_that_is_none_agrees_with_nothing() -> None:
-    made = Comparison("m", "q", "analytic", 1.0, float("nan"), 1.0, "-")
-    assert not made.agrees
+    comparison = Comparison("m", "q", "analytic", 1.0, float("nan"), 1.0, "-")
+    assert not comparison.agrees
     assert not Comparison("m", "q", "analytic", 1.0, 1.3, 0.2, "-").agrees
     assert Comparison("m", "q", "analytic", 1.0, 1.1, 0.2, "-").agrees

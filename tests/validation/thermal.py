@@ -33,9 +33,9 @@ def comparisons() -> Iterator[Comparison]:
         strict=True,
     )
     for name, stage, thin, split, volumetric, delivery, swept, bore, load, suction, discharge, power in printed:
-        found = split.design_coefficients
-        yield line(f"1-5, volumetric coefficient {name}", volumetric, found.volumetric, 5e-5, "-")
-        yield line(f"1-4, delivery coefficient {name}", delivery, found.delivery, 3.5e-4, "-")
+        design_coefficients = split.design_coefficients
+        yield line(f"1-5, volumetric coefficient {name}", volumetric, design_coefficients.volumetric, 5e-5, "-")
+        yield line(f"1-4, delivery coefficient {name}", delivery, design_coefficients.delivery, 3.5e-4, "-")
         yield line(f"1-8, 1-9, swept volume {name}", swept, stage.calculated.swept_volume_m3, 3.5e-4, "m3")
         yield line(f"1-17, bore {name}", bore, stage.calculated.bore_m, 1e-3, "m")
         gas = thin.nominal_loads.outer.gas_force_N / 1e3

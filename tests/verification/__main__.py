@@ -19,16 +19,16 @@ from tests.verification.falsified import Falsified, falsified, numbers, outcome,
 
 def tally(request: Any, answer: Any, every: int) -> tuple[Counter[str], list[Falsified]]:
     """What became of every n-th number of an answer, and what was missed."""
-    found, missed = Counter[str](), []
+    counts, missed = Counter[str](), []
     places = list(numbers(answer))
     for n, path in enumerate(places):
         if n % every == 0:
-            for one in falsified(answer, path, places[n + 1] if n + 1 < len(places) else None):
-                what = outcome(request, one, silent())
-                found[what] += 1
+            for forgery in falsified(answer, path, places[n + 1] if n + 1 < len(places) else None):
+                what = outcome(request, forgery, silent())
+                counts[what] += 1
                 if what == "missed":
-                    missed.append(one)
-    return found, missed
+                    missed.append(forgery)
+    return counts, missed
 
 
 def main() -> int:
@@ -39,24 +39,24 @@ def main() -> int:
     arguments = parser.parse_args()
     faults, together = 0, Counter[str]()
     print(f"{'kind':<32} verdict       claims covered tampered  caught   named rounding missed      ms")
-    for name in (one for one in names() if arguments.kinds in one):
+    for name in (label for label in names() if arguments.kinds in label):
         request, answer = pair(name)
         begun = time.process_time()
-        told = checker().verify(request, answer)
+        verdict = checker().verify(request, answer)
         spent = time.process_time() - begun
-        found, missed = tally(request, answer, arguments.every)
-        together += found
-        faults += bool(found["missed"]) + (told["verdict"] == "broken")
-        line = (told["leaves"], told["checked"], found.total(), found["caught"], found["named"])
+        counts, missed = tally(request, answer, arguments.every)
+        together += counts
+        faults += bool(counts["missed"]) + (verdict["verdict"] == "broken")
+        line = (verdict["leaves"], verdict["checked"], counts.total(), counts["caught"], counts["named"])
         print(
-            f"{name:<32} {told['verdict']:<12}",
-            *(f"{one:7}" for one in (*line, found["rounding"], found["missed"])),
+            f"{name:<32} {verdict['verdict']:<12}",
+            *(f"{rounding:7}" for rounding in (*line, counts["rounding"], counts["missed"])),
             f"{spent * 1e3:7.1f}",
             flush=True,
         )
         if arguments.missed:
-            for one in missed:
-                print("   missed:", "/".join(map(str, one.path)), one.way)
+            for forgery in missed:
+                print("   missed:", "/".join(map(str, forgery.path)), forgery.way)
     print("all:", dict(together))
     return int(faults > 0)
 

@@ -58,7 +58,7 @@ def _pair(base: str, *features: str) -> Body:
     return body
 
 
-def _shown(body: Body, **more: Any) -> Body:
+def _first_page(body: Body, **more: Any) -> Body:
     """What the page asks for first."""
     outputs = ["hodograph", "orders", "foundation_loads"]
     return {**body, **more, "outputs": outputs, "angles": {"step_deg": 5.0}}
@@ -91,22 +91,22 @@ def _four_strokes() -> Body:
 
 @cache
 def _requests() -> dict[str, Body]:
-    found = {name: SINGLE[name] for name in ("sum", "max", "direction weights", "budget and ceiling", "infeasible")}
-    found |= {name: SINGLE[name] for name in ("no limits, max, sector", "2d12", "scroll-oldham")}
+    pairs = {name: SINGLE[name] for name in ("sum", "max", "direction weights", "budget and ceiling", "infeasible")}
+    pairs |= {name: SINGLE[name] for name in ("no limits, max, sector", "2d12", "scroll-oldham")}
     for name, (base, features) in _FEATURES.items():
-        found[name] = _pair(base, *features)
-    found["shaking"] = _shown(_pair("vee", "clockwise"), fitted=[{"web": "a", "mass_kg": 2.0, "angle_deg": 75.0}])
-    found["shaking, balance shaft"] = _shown(_pair("vee", "balance shaft of order 2"))
-    found["stages"] = {**_pair("vee", "balance shaft of order 2"), "outputs": ["stages"]}
-    found["pin loads"] = {**SINGLE["scroll-three-pins"], "outputs": ["pin_loads"], "angles": {"step_deg": 30.0}}
-    found["weights"] = _weighed(_pair("twin"))
-    found["dynamics"] = _dynamics(_pair("vee", "friction", "bearing weight"))
-    found["four strokes"] = _four_strokes()
-    found["front"] = {**SINGLE["sum"], "points": 3, "multipliers": True}
+        pairs[name] = _pair(base, *features)
+    pairs["shaking"] = _first_page(_pair("vee", "clockwise"), fitted=[{"web": "a", "mass_kg": 2.0, "angle_deg": 75.0}])
+    pairs["shaking, balance shaft"] = _first_page(_pair("vee", "balance shaft of order 2"))
+    pairs["stages"] = {**_pair("vee", "balance shaft of order 2"), "outputs": ["stages"]}
+    pairs["pin loads"] = {**SINGLE["scroll-three-pins"], "outputs": ["pin_loads"], "angles": {"step_deg": 30.0}}
+    pairs["weights"] = _weighed(_pair("twin"))
+    pairs["dynamics"] = _dynamics(_pair("vee", "friction", "bearing weight"))
+    pairs["four strokes"] = _four_strokes()
+    pairs["front"] = {**SINGLE["sum"], "points": 3, "multipliers": True}
     masses = {"path": "/machine/throws/0/rows/0/reciprocating_mass_kg", "values": [9.0, 14.0]}
-    found["sweep"] = {"base": SINGLE["ceilings"], "axes": [masses], "multipliers": True}
-    found["matching"] = bodies("match")["2d12"]
-    return found
+    pairs["sweep"] = {"base": SINGLE["ceilings"], "axes": [masses], "multipliers": True}
+    pairs["matching"] = bodies("match")["2d12"]
+    return pairs
 
 
 def names() -> tuple[str, ...]:

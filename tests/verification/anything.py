@@ -24,28 +24,28 @@ JSON = st.recursive(
 
 
 def paths(node: Any, path: tuple[str | int, ...] = ()) -> list[tuple[str | int, ...]]:
-    found = [path]
+    actual_paths = [path]
     if isinstance(node, dict):
-        return [*found, *(deeper for key, value in node.items() for deeper in paths(value, (*path, key)))]
+        return [*actual_paths, *(deeper for key, value in node.items() for deeper in paths(value, (*path, key)))]
     if isinstance(node, list):
-        return [*found, *(deeper for key, value in enumerate(node) for deeper in paths(value, (*path, key)))]
-    return found
+        return [*actual_paths, *(deeper for key, value in enumerate(node) for deeper in paths(value, (*path, key)))]
+    return actual_paths
 
 
 def replaced(node: Any, path: tuple[str | int, ...], value: Any) -> Any:
     if not path:
         return value
     if isinstance(node, dict):
-        return {key: replaced(one, path[1:], value) if key == path[0] else one for key, one in node.items()}
-    return [replaced(one, path[1:], value) if key == path[0] else one for key, one in enumerate(node)]
+        return {key: replaced(number, path[1:], value) if key == path[0] else number for key, number in node.items()}
+    return [replaced(number, path[1:], value) if key == path[0] else number for key, number in enumerate(node)]
 
 
 def judged(request: Any, answer: Any) -> None:
     path: tuple[str | int, ...] = ()
     try:
-        found = checker().verify(request, answer)
+        verdict = checker().verify(request, answer)
     except checker().Unreadable as error:
         path = error.path
     else:
-        json.dumps(found, allow_nan=False).encode()
+        json.dumps(verdict, allow_nan=False).encode()
     assert path[:1] in ((), ("request",), ("answer",))

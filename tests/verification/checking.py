@@ -69,9 +69,9 @@ def require(request: Any, answer: Any, spread: Spread = _spread) -> None:
             if isinstance(request, dict)
             else request.model_dump_json()
         )
-        sent = json.loads(text)
-        found = broken(sent, json.loads(answer.model_dump_json()))
-        assert not found, "\n".join([*found, text])
+        document = json.loads(text)
+        claims = broken(document, json.loads(answer.model_dump_json()))
+        assert not claims, "\n".join([*claims, text])
 
 
 def is_checked(spread: Spread = _spread) -> bool:
@@ -83,7 +83,7 @@ def is_checked(spread: Spread = _spread) -> bool:
 def broken(request: Any, answer: Any) -> list[str]:
     """The claims of an answer, or of rows, that do not hold."""
     claims = checker().verify(request, answer)["claims"]
-    return [f"{one['claim']} {one['margin']} {one['where']}" for one in claims if one["verdict"] == "broken"]
+    return [f"{claim['claim']} {claim['margin']} {claim['where']}" for claim in claims if claim["verdict"] == "broken"]
 
 
 def is_broken(request: Any, answer: Any) -> bool:
@@ -96,11 +96,11 @@ def is_broken(request: Any, answer: Any) -> bool:
 
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(tools, "judged", judged)
-        found: bool = tools.verify(request, answer)
-    return found
+        judgement: bool = tools.verify(request, answer)
+    return judgement
 
 
 def verdict(request: Any, answer: Any) -> str:
     """The verdict on an answer, or on rows."""
-    found: str = checker().verify(request, answer)["verdict"]
-    return found
+    judgement: str = checker().verify(request, answer)["verdict"]
+    return judgement

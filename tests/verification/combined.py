@@ -58,7 +58,7 @@ def _with(body: Body, of_machine: Body, **more: Any) -> Body:
     return {**body, "machine": {**body["machine"], **of_machine}, **more}
 
 
-def _made() -> dict[str, Body]:
+def _combinations() -> dict[str, Body]:
     """What features of pairs do not make: outputs, fronts, sweeps and matches of several kinds."""
     rods, twin, vee = _pair("twin", "gas"), _pair("twin"), _pair("vee", "balance shaft of order 2")
     rubbed = {"friction": {"reciprocating_force_N": [80.0, 60.0], "rotating_torque_Nm": 3.0}}
@@ -96,12 +96,12 @@ def _made() -> dict[str, Body]:
 
 def _of_areas(body: Body) -> Body:
     """Cylinders of other areas than those of a bore and a rod."""
-    found = copy.deepcopy(body)
-    for throw in found["machine"]["throws"]:
+    variant = copy.deepcopy(body)
+    for throw in variant["machine"]["throws"]:
         cylinder = throw["rows"][0]["cylinder"]
         del cylinder["bore_m"], cylinder["piston_rod_diameter_m"]
         cylinder |= {"head_area_m2": 0.03, "crank_area_m2": 0.025}
-    return found
+    return variant
 
 
 def _matched(body: Body, **more: Any) -> Body:
@@ -121,7 +121,7 @@ def _drawn(mode: str, number: int, off: bool = False) -> Body:
 
 def bodies() -> dict[str, Body]:
     """All of them."""
-    found = {name: _pair(*features) for name, features in _PAIRS.items()}
+    pairs = {name: _pair(*features) for name, features in _PAIRS.items()}
     random = {f"{mode} {number} of seed {_SEED}": _drawn(mode, number) for mode, number in _DRAWN}
     off = {f"{mode} {number} of seed {_SEED}, masses off": _drawn(mode, number, True) for mode, number in _DRAWN_OFF}
-    return found | _made() | random | off
+    return pairs | _combinations() | random | off

@@ -36,7 +36,7 @@ def numbers(answer: Any, path: Path = ()) -> Iterator[Path]:
         yield path
 
 
-def falsified(answer: Any, path: Path, other: Any) -> Iterator[Falsified]:
+def falsified(answer: Any, path: Path, number: Any) -> Iterator[Falsified]:
     """Every way to falsify one number; ``other`` is the one that it is swapped with."""
     value = at(answer, path)
     ways = {"x1.001": value * 1.001, "x0.999": value * 0.999, "x1000": value * 1000.0, "0": 0.0, "sign": -value}
@@ -44,8 +44,8 @@ def falsified(answer: Any, path: Path, other: Any) -> Iterator[Falsified]:
         # 180 degrees are -180 degrees
         if wrong != value and not (way == "sign" and str(path[-1]) == "phase_deg" and abs(value) == 180.0):
             yield Falsified(path, way, replaced(answer, path, wrong), answer)
-    if other is not None and at(answer, other) != value:
-        swapped = replaced(replaced(answer, path, at(answer, other)), other, value)
+    if number is not None and at(answer, number) != value:
+        swapped = replaced(replaced(answer, path, at(answer, number)), number, value)
         yield Falsified(path, "swap", swapped, answer)
     yield Falsified(path, "deletion", deleted(answer, path), answer)
 
@@ -61,22 +61,22 @@ def replaced(answer: Any, path: Path, value: Any) -> Any:
     """A copy with another value at a place; the rest is shared."""
     if not path:
         return value
-    found = copy.copy(answer)
-    found[path[0]] = replaced(answer[path[0]], path[1:], value)
-    return found
+    variant = copy.copy(answer)
+    variant[path[0]] = replaced(answer[path[0]], path[1:], value)
+    return variant
 
 
 def deleted(answer: Any, path: Path) -> Any:
     """A copy without what stands at a place."""
-    found = copy.copy(answer)
+    variant = copy.copy(answer)
     if len(path) == 1:
-        del found[path[0]]
+        del variant[path[0]]
     else:
-        found[path[0]] = deleted(answer[path[0]], path[1:])
-    return found
+        variant[path[0]] = deleted(answer[path[0]], path[1:])
+    return variant
 
 
-def outcome(request: Any, one: Falsified, silent: tuple[str, ...]) -> Outcome:
+def outcome(request: Any, forgery: Falsified, silent: tuple[str, ...]) -> Outcome:
     """What becomes of it: broken or refused, its place named as one that is not looked at, or neither.
 
     Parameters
@@ -84,18 +84,21 @@ def outcome(request: Any, one: Falsified, silent: tuple[str, ...]) -> Outcome:
     silent : names of what claims nothing, or is evidence of what is claimed elsewhere.
     """
     try:
-        found = checker().verify(request, one.answer)
+        verdict = checker().verify(request, forgery.answer)
     except checker().Unreadable:
         return "caught"
-    if found["verdict"] == "broken":
+    if verdict["verdict"] == "broken":
         return "caught"
-    pointer = "/answer" + "".join(f"/{'*' if isinstance(part, int) else escaped(part)}" for part in one.path)
-    names = [*found["not_covered"], *(claim["where"] for claim in found["claims"] if claim["verdict"] == "not covered")]
+    pointer = "/answer" + "".join(f"/{'*' if isinstance(part, int) else escaped(part)}" for part in forgery.path)
+    names = [
+        *verdict["not_covered"],
+        *(claim["where"] for claim in verdict["claims"] if claim["verdict"] == "not covered"),
+    ]
     if any(pointer == name or pointer.startswith(f"{name}/") for name in names):
         return "named"
-    if any(part in silent for part in one.path):
+    if any(part in silent for part in forgery.path):
         return "named"
-    return "rounding" if _dust(one.whole, one.path) else "missed"
+    return "rounding" if _dust(forgery.whole, forgery.path) else "missed"
 
 
 def _dust(answer: Any, path: Path) -> bool:
@@ -112,18 +115,18 @@ def _dust(answer: Any, path: Path) -> bool:
     kind = "_Nm" if "moment" in path or any(str(part).startswith("couple") for part in path) else "_N"
     sizes_of = {"_N": 1.0 if kind == "_N" else _ARM, "_Nm": 1.0 if kind == "_Nm" else 0.0}
     figures = [
-        (one, sizes_of.get("_" + str(one[-1]).rpartition("_")[2], 0.0))
-        for one in numbers(answer["residual"], ("residual",))
+        (number, sizes_of.get("_" + str(number[-1]).rpartition("_")[2], 0.0))
+        for number in numbers(answer["residual"], ("residual",))
     ]
-    largest = max(arm * abs(at(answer, one)) for one, arm in figures)
+    largest = max(arm * abs(at(answer, texts)) for texts, arm in figures)
     value = at(answer, path)
     if str(path[-1]).endswith("_deg"):
         # along what is smallest of it: one of both phasors, or the phasor itself
         lengths = ("co_", "counter_", "magnitude", "amplitude")
-        sizes = [abs(one) for name, one in here.items() if name.startswith(lengths)]
+        sizes = [abs(value) for name, value in here.items() if name.startswith(lengths)]
         return min(sizes) <= _DUST * largest
-    others = [one for name, one in here.items() if name.endswith(kind) and name != path[-1]]
-    return abs(value) <= _DUST * largest or any(abs(value - one) <= _DUST * largest for one in others)
+    values = [value for name, value in here.items() if name.endswith(kind) and name != path[-1]]
+    return abs(value) <= _DUST * largest or any(abs(value - number) <= _DUST * largest for number in values)
 
 
 def _size(here: Any, path: Path) -> float:

@@ -22,12 +22,14 @@ _EVIDENCE = {"share"}
 def fields(model: type[BaseModel] = OptimizeAnswer, path: str = "") -> dict[str, tuple[str, ...]]:
     """Names of the fields of every object of an answer, by its place; `*` for all of a list."""
     named = {name: field.alias or name for name, field in model.model_fields.items() if name not in _EVIDENCE}
-    found = {path: tuple(alias for name, alias in named.items() if path or name not in OutputFields.model_fields)}
+    actual_fields = {
+        path: tuple(alias for name, alias in named.items() if path or name not in OutputFields.model_fields)
+    }
     for name, field in model.model_fields.items():
         if path or name not in _OUTPUTS:
             for where, inner in _models(field.annotation, f"{path}/{name}"):
-                found |= fields(inner, where)
-    return found
+                actual_fields |= fields(inner, where)
+    return actual_fields
 
 
 def _models(annotation: Any, path: str) -> list[tuple[str, type[BaseModel]]]:
@@ -37,9 +39,9 @@ def _models(annotation: Any, path: str) -> list[tuple[str, type[BaseModel]]]:
     if origin is Annotated:
         return _models(inner[0], path)
     if origin in (Union, UnionType):
-        return [one for each in inner for one in _models(each, path)]
+        return [model for value in inner for model in _models(value, path)]
     if origin is tuple or origin is list:
-        return [one for each in inner for one in _models(each, f"{path}/*")]
+        return [model for value in inner for model in _models(value, f"{path}/*")]
     # of a map the names are free
     return []
 
@@ -47,5 +49,5 @@ def _models(annotation: Any, path: str) -> list[tuple[str, type[BaseModel]]]:
 def all_fields() -> dict[str, tuple[str, ...]]:
     """Of single answers, of matching, and of fronts but for trades of other responses, each by its place."""
     fronts = fields(ParetoAnswer, "/pareto").items()
-    known = {path: names for path, names in fronts if not _UNKNOWN & {*path.split("/")}}
-    return fields() | fields(MatchAnswer, "/match") | known
+    labels = {path: names for path, names in fronts if not _UNKNOWN & {*path.split("/")}}
+    return fields() | fields(MatchAnswer, "/match") | labels

@@ -54,11 +54,13 @@ class Question(NamedTuple):
 
 KINDS = {
     "optimize": Kind(
-        lambda sent, _: sent, lambda sent: json.loads(optimize(check(OptimizeRequest, sent)).model_dump_json())
+        lambda value, _: value, lambda value: json.loads(optimize(check(OptimizeRequest, value)).model_dump_json())
     ),
     "sweep": Kind(sweep_of, sweep_rows),
     "front": Kind(front_of, front_answer),
-    "match": Kind(lambda sent, _: sent, lambda sent: json.loads(match(check(MatchRequest, sent)).model_dump_json())),
+    "match": Kind(
+        lambda value, _: value, lambda value: json.loads(match(check(MatchRequest, value)).model_dump_json())
+    ),
 }
 #: in turn: each of a random machine, and sweeps and fronts of a pair of features
 _STUDIES = (("sweep", True), ("sweep", False), ("front", True), ("sweep", False), ("match", True), ("front", False))
@@ -69,37 +71,37 @@ def questions(seed: int) -> Iterator[Question]:
     pairs = list(all_pairs())
     order = random.Random(seed)
     order.shuffle(pairs)
-    modes = [one for one in FEATURES if one != "match"]
+    modes = [feature for feature in FEATURES if feature != "match"]
     for number in range(10**9):
-        mode, sent = modes[number % len(modes)], drawn(number, seed, modes[number % len(modes)])
-        yield Question(f"{mode} {number} of seed {seed}", "optimize", sent)
-        if number % _OFF == 0 and sent is not None:
-            yield Question(f"{mode} {number} of seed {seed}, masses off", "optimize", with_masses_off(sent, number))
+        mode, drawing = modes[number % len(modes)], drawn(number, seed, modes[number % len(modes)])
+        yield Question(f"{mode} {number} of seed {seed}", "optimize", drawing)
+        if number % _OFF == 0 and drawing is not None:
+            yield Question(f"{mode} {number} of seed {seed}, masses off", "optimize", with_masses_off(drawing, number))
         base, features = pairs[number % len(pairs)]
         pair = body_of(base, features, _TIME_LIMIT)
         yield Question(f"{base} {features}", "optimize", pair)
         kind, of_machine = _STUDIES[number % len(_STUDIES)]
-        study = drawn(number, seed, "match") if kind == "match" else sent if of_machine else pair
+        study = drawn(number, seed, "match") if kind == "match" else drawing if of_machine else pair
         name = f"{mode} {number}" if of_machine else f"{base} {features}"
         yield Question(f"{kind} {number} of seed {seed}, {name}", kind, study)
 
 
-def with_masses_off(sent: Any, number: int) -> Any:
+def with_masses_off(subject: Any, number: int) -> Any:
     """The same with reciprocating masses that are off by a share, up to all of them."""
     share = (0.02, 0.1, 1.0)[number // _OFF % 3]
-    return sent | {"tolerances": (sent.get("tolerances") or {}) | {"reciprocating_mass_relative": share}}
+    return subject | {"tolerances": (subject.get("tolerances") or {}) | {"reciprocating_mass_relative": share}}
 
 
-def judged(asked: Question) -> dict[str, Any] | None:
+def judged(question: Question) -> dict[str, Any] | None:
     """What the checker finds of the answer to a question; None where that is refused."""
-    kind = KINDS[asked.kind]
+    kind = KINDS[question.kind]
     try:
-        sent = kind.made(asked.sent, random.Random(asked.name))
-        answer = kind.answered(sent)
+        document = kind.made(question.sent, random.Random(question.name))
+        answer = kind.answered(document)
     except (InvalidRequest, MissingInput, OutOfRange):
         return None
-    found: dict[str, Any] = checker().verify(json.loads(json.dumps(sent)), answer)
-    return found
+    verdict: dict[str, Any] = checker().verify(json.loads(json.dumps(document)), answer)
+    return verdict
 
 
 def run(
@@ -107,22 +109,22 @@ def run(
 ) -> tuple[Counter[str], list[str]]:
     """Verdicts of so many answers, or of so many seconds of computing, and what was broken or raised."""
     verdicts, faults, begun = Counter[str](), [], time.process_time()
-    for asked in questions(seed):
+    for question in questions(seed):
         if verdicts.total() >= count or time.process_time() - begun > seconds:
             break
-        if asked.sent is None or asked.kind not in only:
+        if question.sent is None or question.kind not in only:
             continue
         try:
-            found = judged(asked)
+            verdict = judged(question)
         except Exception as error:  # whatever it is, it is a fault
-            verdicts[f"{asked.kind} raised"] += 1
-            faults.append(f"{asked.name}: raised {error!r}")
+            verdicts[f"{question.kind} raised"] += 1
+            faults.append(f"{question.name}: raised {error!r}")
             print(faults[-1], flush=True)
             continue
-        if found is not None:
-            verdicts[f"{asked.kind} {found['verdict']}"] += 1
-            broken = (one for one in found["claims"] if one["verdict"] == "broken")
-            new = [f"{asked.name}: {one['claim']} {one['margin']} {one['where']}" for one in broken]
+        if verdict is not None:
+            verdicts[f"{question.kind} {verdict['verdict']}"] += 1
+            broken = (claim for claim in verdict["claims"] if claim["verdict"] == "broken")
+            new = [f"{question.name}: {claim['claim']} {claim['margin']} {claim['where']}" for claim in broken]
             faults += new
             print(*new, sep="\n", end="\n" if new else "", flush=True)
             if verdicts.total() % _TOLD == 0:

@@ -17,7 +17,7 @@ _WEBS = [web("a", -0.45, 4.0), web("b", -0.1, 6.0, sector=_SECTOR), web("c", 0.5
 
 
 #: webs without a limit of their mass
-_FREE = [{**one, "max_mass_kg": None} for one in _WEBS]
+_FREE = [{**plane, "max_mass_kg": None} for plane in _WEBS]
 
 
 def _body(changes: Body | None = None, **objective: Any) -> Body:
@@ -33,15 +33,15 @@ def _with_texts(body: Body) -> Body:
         "rpm": ("Hz", 1 / 60),
     }
 
-    def told(name: str, value: Any) -> Any:
+    def text_of(name: str, value: Any) -> Any:
         if isinstance(value, dict):
-            return {key: told(key, one) for key, one in value.items()}
+            return {key: text_of(key, value) for key, value in value.items()}
         if isinstance(value, list):
-            return [told("", one) for one in value]
+            return [text_of("", value) for value in value]
         unit, factor = units.get(name.rpartition("_")[2], ("", 0.0))
         return f"{value * factor!r} {unit}" if unit and isinstance(value, float) else value
 
-    texts: Body = told("", body)
+    texts: Body = text_of("", body)
     return texts
 
 
@@ -70,7 +70,7 @@ SINGLE: dict[str, Body] = {
     "no limits on one plane": _body({"webs": [_FREE[0], _WEBS[1]]}),
     "no limits, budget, ceiling": _body({"webs": _FREE, "max_total_mass_kg": 1e15}, force_ceiling_N=5000.0),
     "infeasible without limits": _body({"webs": _FREE}, force_ceiling_N=100.0),
-    "limits beyond any need": _body({"webs": [{**one, "max_mass_kg": 1e300} for one in _WEBS]}),
+    "limits beyond any need": _body({"webs": [{**plane, "max_mass_kg": 1e300} for plane in _WEBS]}),
     "a hair of mass": {
         "machine": machine([throw(0.0, 0.0, [], rotating=10.0)], [web("a", -0.1), web("b", 0.1)], speed_rpm=600.0),
         # 10 kg at 0.1 m and 20 pi/s, less a ten millionth of it

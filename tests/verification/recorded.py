@@ -50,8 +50,8 @@ Line = list[Any]
 @cache
 def records() -> dict[str, dict[str, Any]]:
     """Request, answer, and what is made of them, by the name of the kind."""
-    found: dict[str, dict[str, Any]] = json.loads(lzma.decompress(FILE.read_bytes()))
-    return found
+    document: dict[str, dict[str, Any]] = json.loads(lzma.decompress(FILE.read_bytes()))
+    return document
 
 
 def judgement(request: Any, answer: Any) -> dict[str, Any]:
@@ -62,7 +62,7 @@ def judgement(request: Any, answer: Any) -> dict[str, Any]:
     def noting(claims: Any, place: Any) -> Any:
         every = list(claims)
         for claim, where, room, size in every:
-            lines.append([claim, "/".join(map(str, where.path)), *(_rounded(each) for each in (room, size))])
+            lines.append([claim, "/".join(map(str, where.path)), *(_rounded(value) for value in (room, size))])
         return judged(iter(every), place)
 
     with pytest.MonkeyPatch.context() as patch:
@@ -74,12 +74,12 @@ def judgement(request: Any, answer: Any) -> dict[str, Any]:
     return {"claims": lines, "whole": {name: value for name, value in whole.items() if name != "claims"}}
 
 
-def _with_other_numbers(value: Any, random: Random, numbers: Sequence[float | None]) -> Any:
+def _with_new_numbers(value: Any, random: Random, numbers: Sequence[float | None]) -> Any:
     """Some numbers are a little or very different, or one of some others."""
     if isinstance(value, dict):
-        return {name: _with_other_numbers(each, random, numbers) for name, each in value.items()}
+        return {name: _with_new_numbers(value, random, numbers) for name, value in value.items()}
     if isinstance(value, list):
-        return [_with_other_numbers(each, random, numbers) for each in value]
+        return [_with_new_numbers(value, random, numbers) for value in value]
     if not isinstance(value, float) or random.random() > _OTHERS:
         return value
     near = (value * (1.0 + share) for share in (1e-13, 1e-7, -1e-3, 2.0))
@@ -93,18 +93,18 @@ def _with_another_form(value: Any, random: Random) -> Any:
         changed = _with_another_form(value[key], random)
         items = value.items() if isinstance(value, dict) else enumerate(value)
         if changed is _GONE:
-            kept = [(name, each) for name, each in items if name != key]
+            values = [(name, value) for name, value in items if name != key]
         elif changed is _TWICE:
-            kept = [*items, ("again", value[key])]
+            values = [*items, ("again", value[key])]
         else:
-            kept = [(name, changed if name == key else each) for name, each in items]
-        return dict(kept) if isinstance(value, dict) else [each for _, each in kept]
-    others = [_GONE, _GONE, _TWICE, None, [], {}, "", "optimal", True, 0, 1, -1.0]
+            values = [(name, changed if name == key else value) for name, value in items]
+        return dict(values) if isinstance(value, dict) else [value for _, value in values]
+    entries = [_GONE, _GONE, _TWICE, None, [], {}, "", "optimal", True, 0, 1, -1.0]
     if isinstance(value, bool):
-        others += 5 * [not value]
+        entries += 5 * [not value]
     elif isinstance(value, int | float):
-        others += 5 * [value + 1]
-    return random.choice(others)
+        entries += 5 * [value + 1]
+    return random.choice(entries)
 
 
 #: chance to go one level deeper, and what is done with a field
@@ -114,18 +114,18 @@ _DEEPER, _GONE, _TWICE = 0.9, object(), object()
 def variants(name: str, request: Any, answer: Any) -> Iterator[tuple[Any, Any]]:
     """What somebody else might have sent: other numbers, or another form."""
     random = Random(name)
-    yield request, _with_other_numbers(answer, random, ())
+    yield request, _with_new_numbers(answer, random, ())
     yield request, _with_another_form(answer, random)
-    yield _with_other_numbers(request, random, (None,)), answer
+    yield _with_new_numbers(request, random, (None,)), answer
     yield request, _with_another_form(answer, random)
     yield _with_another_form(request, random), answer
 
 
 def submissions(name: str, request: Any, answer: Any) -> list[tuple[Any, Any]]:
     """An answer, and what is made up of it where that costs little; each with its request."""
-    others = () if name in _DEAR else variants(name, request, answer)
+    actual_variants = () if name in _DEAR else variants(name, request, answer)
     most = None if len(json.dumps(answer)) < _SHORT else _OF_LONG
-    return [(request, answer), *islice(others, most)]
+    return [(request, answer), *islice(actual_variants, most)]
 
 
 def _rounded(number: Any) -> float | None:
@@ -136,16 +136,18 @@ def main() -> None:
     """Writes the file."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--answers", action="store_true", help="ask for the answers anew")
-    known = {} if parser.parse_args().answers else records()
-    pairs = {name: known[name] if name in known else _asked(body) for name, body in _bodies().items()}
-    found = {
-        name: {
-            **one,
-            "judgements": [judgement(*each) for each in submissions(name, one["request"], one["answer"])],
-        }
-        for name, one in pairs.items()
+    actual_records = {} if parser.parse_args().answers else records()
+    pairs = {
+        name: actual_records[name] if name in actual_records else _exchange(body) for name, body in _bodies().items()
     }
-    text = json.dumps(found, separators=(",", ":"))
+    fields = {
+        name: {
+            **pair,
+            "judgements": [judgement(*submission) for submission in submissions(name, pair["request"], pair["answer"])],
+        }
+        for name, pair in pairs.items()
+    }
+    text = json.dumps(fields, separators=(",", ":"))
     FILE.write_bytes(lzma.compress(text.encode(), preset=9 | lzma.PRESET_EXTREME))
 
 
@@ -154,12 +156,12 @@ def _bodies() -> dict[str, Any]:
     return SINGLE | of_table | _more() | combined.bodies()
 
 
-def _asked(body: Any) -> dict[str, Any]:
+def _exchange(body: Any) -> dict[str, Any]:
     return {"request": json.loads(json.dumps(body)), "answer": answered(body)}
 
 
 def _more() -> dict[str, Any]:
-    bodies = {f"{base}, {name}": body_of(base, (name,)) for base, each in _MORE.items() for name in each}
+    bodies = {f"{base}, {name}": body_of(base, (name,)) for base, texts in _MORE.items() for name in texts}
     assert all(body is not None for body in bodies.values())
     return bodies
 

@@ -35,7 +35,7 @@ class Fault(Exception):
     """A row that computing broke down for."""
 
 
-def sweep_of(asked: Body, rng: random.Random) -> Body:
+def sweep_of(body: Body, rng: random.Random) -> Body:
     """A sweep through a request to optimise.
 
     Raises
@@ -43,40 +43,40 @@ def sweep_of(asked: Body, rng: random.Random) -> Body:
     InvalidRequest
         if that is none, without what a sweep does not take.
     """
-    base = {name: value for name, value in asked.items() if name not in _ALONE}
-    sent: Body = {"base": base, "multipliers": rng.randrange(_BARE) > 0, "details": rng.randrange(_BARE) == 0}
+    base = {name: value for name, value in body.items() if name not in _ALONE}
+    proof: Body = {"base": base, "multipliers": rng.randrange(_BARE) > 0, "details": rng.randrange(_BARE) == 0}
     request = check(OptimizeRequest, base)
     cranks = [throw.crank_angle_deg for throw in getattr(request.machine, "throws", ())]
     if 2 <= len(cranks) <= 4 and rng.randrange(_BARE) == 0:
         angles = rng.choice([cranks, [90.0 * k for k in range(len(cranks))], [0.0] + [180.0] * (len(cranks) - 1)])
-        return sent | {"design": "crank_orders", "angles_deg": angles}
+        return proof | {"design": "crank_orders", "angles_deg": angles}
     fields = list(_numbers(request, (), request))
     varied = rng.sample(fields, min(len(fields), rng.choice([1, 1, 2, 3])))
     design = rng.choice(["grid", "grid", "grid", "paired", "latin_hypercube"])
     if design == "latin_hypercube":
         axes = [_range(rng, *field) for field in varied]
-        return sent | {"design": design, "axes": axes, "samples": 3, "seed": rng.randrange(99)}
+        return proof | {"design": design, "axes": axes, "samples": 3, "seed": rng.randrange(99)}
     levels = [rng.choice(_LEVELS) if len(varied) < 3 else 2] * len(varied)
-    return sent | {"design": design, "axes": [_axis(rng, *f, count) for f, count in zip(varied, levels, strict=True)]}
+    return proof | {"design": design, "axes": [_axis(rng, *f, count) for f, count in zip(varied, levels, strict=True)]}
 
 
-def front_of(asked: Body, rng: random.Random) -> Body:
+def front_of(body: Body, rng: random.Random) -> Body:
     """A front of force and moment of a request to optimise."""
-    kept = {name: value for name, value in asked.items() if name not in _ALONE}
-    found = kept | {"points": rng.choice([2, 3, 3, 5])}
-    webs, machine = found["machine"].get("webs", ()), found["machine"]
+    fields = {name: value for name, value in body.items() if name not in _ALONE}
+    request = fields | {"points": rng.choice([2, 3, 3, 5])}
+    webs, machine = request["machine"].get("webs", ()), request["machine"]
     chosen = {"catalogue", "web_groups"} & machine.keys() or any(
         {"envelope", "min_fitted_mass_kg", "hole_angles_deg", "catalogue_masses_kg"} & web.keys() for web in webs
     )
     if not chosen and rng.randrange(_BARE):
-        found["multipliers"] = True
+        request["multipliers"] = True
     if rng.random() < 0.3 and not machine.get("balance_shafts"):
         most = sum(web.get("max_mass_kg") or 10.0 for web in webs if isinstance(web.get("max_mass_kg", 0.0), float))
-        found["total_mass_budgets_kg"] = [share * (most or 1.0) for share in rng.choice([(0.5,), (0.0, 0.3, 1.5)])]
-    return found
+        request["total_mass_budgets_kg"] = [share * (most or 1.0) for share in rng.choice([(0.5,), (0.0, 0.3, 1.5)])]
+    return request
 
 
-def sweep_rows(sent: Body) -> Any:
+def sweep_rows(body: Body) -> Any:
     """Rows of a sweep as a client reads them.
 
     Raises
@@ -84,7 +84,7 @@ def sweep_rows(sent: Body) -> Any:
     Fault
         if computing broke down for one of them.
     """
-    request = check(SweepRequest, sent)
+    request = check(SweepRequest, body)
     rows = run_chunk(request.model_dump_json().encode(), 0, request.total).to_pylist()
     failed = [f"row {row['index']}: {row['message']}" for row in rows if row["status"] == "failed"]
     if failed:
@@ -92,9 +92,9 @@ def sweep_rows(sent: Body) -> Any:
     return rows
 
 
-def front_answer(sent: Body) -> Any:
+def front_answer(body: Body) -> Any:
     """A front as a client reads it."""
-    return json.loads(pareto(check(ParetoRequest, sent)).model_dump_json())
+    return json.loads(pareto(check(ParetoRequest, body)).model_dump_json())
 
 
 def _numbers(value: Any, path: tuple[str | int, ...], request: Model) -> Iterator[tuple[Target, float | None]]:

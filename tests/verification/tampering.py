@@ -33,29 +33,29 @@ def tampered(answer: dict[str, Any]) -> Iterator[Tampered]:
 
 def beyond_limits(body: dict[str, Any], answer: dict[str, Any]) -> Iterator[tuple[str, dict[str, Any]]]:
     """Requests whose limits the counterweights of an answer break by 1e-6."""
-    for k, one in enumerate(answer["counterweights"]):
-        if one["mass_kg"] > 0:
-            yield _asked(body, one["mass_kg"] * (1 - _SHARE), "machine", "webs", k, "max_mass_kg")
-            sector = {"centre_deg": one["angle_deg"] + 30.0, "half_angle_deg": 30.0 * (1 - _SHARE)}
-            yield _asked(body, sector, "machine", "webs", k, "sector")
+    for k, counterweight in enumerate(answer["counterweights"]):
+        if counterweight["mass_kg"] > 0:
+            yield _changed_request(body, counterweight["mass_kg"] * (1 - _SHARE), "machine", "webs", k, "max_mass_kg")
+            sector = {"centre_deg": counterweight["angle_deg"] + 30.0, "half_angle_deg": 30.0 * (1 - _SHARE)}
+            yield _changed_request(body, sector, "machine", "webs", k, "sector")
     if answer["total_mass_kg"]:
-        yield _asked(body, answer["total_mass_kg"] * (1 - _SHARE), "machine", "max_total_mass_kg")
+        yield _changed_request(body, answer["total_mass_kg"] * (1 - _SHARE), "machine", "max_total_mass_kg")
     for name, unit in _UNITS.items():
         before, after = ((answer["residual"][when] or {}).get(name) for when in ("before", "after"))
         peak = after[f"peak_{unit}"] if after else 0.0
         # a ceiling counts as kept to 1e-9 of what is there without counterweights
         if answer["status"] == "optimal" and peak > 0.01 * before[f"peak_{unit}"]:
             with_objective = {**body, "objective": dict(body.get("objective", {}))}
-            yield _asked(with_objective, peak * (1 - _SHARE), "objective", f"{name}_ceiling_{unit}")
+            yield _changed_request(with_objective, peak * (1 - _SHARE), "objective", f"{name}_ceiling_{unit}")
 
 
 def _masses(answer: dict[str, Any]) -> Iterator[Tampered]:
-    for k, one in enumerate(answer["counterweights"]):
-        if one["mass_kg"] > 0:
+    for k, counterweight in enumerate(answer["counterweights"]):
+        if counterweight["mass_kg"] > 0:
             for field in ("mass_kg", "mass_radius_kg_m"):
                 yield _changed(answer, "counterweights", k, field)
             # below this the direction is the same to the last digits
-            if one["angle_deg"] > 1e-3:
+            if counterweight["angle_deg"] > 1e-3:
                 yield _changed(answer, "counterweights", k, "angle_deg")
     if answer["total_mass_kg"]:
         yield _changed(answer, "total_mass_kg")
@@ -76,18 +76,18 @@ def _counts(answer: dict[str, Any], value: float) -> bool:
 
 
 def _changed(answer: dict[str, Any], *path: str | int) -> Tampered:
-    found = copy.deepcopy(answer)
-    node: Any = found
+    variant = copy.deepcopy(answer)
+    node: Any = variant
     for part in path[:-1]:
         node = node[part]
     node[path[-1]] *= 1 + _SHARE
-    return "/".join(map(str, path)), found
+    return "/".join(map(str, path)), variant
 
 
-def _asked(body: dict[str, Any], value: Any, *path: str | int) -> tuple[str, dict[str, Any]]:
-    found = copy.deepcopy(body)
-    node: Any = found
+def _changed_request(body: dict[str, Any], value: Any, *path: str | int) -> tuple[str, dict[str, Any]]:
+    variant = copy.deepcopy(body)
+    node: Any = variant
     for part in path[:-1]:
         node = node[part]
     node[path[-1]] = value
-    return "/".join(map(str, path)), found
+    return "/".join(map(str, path)), variant

@@ -22,17 +22,17 @@ VALUES = (
 def changed(name: str, count: int, seed: int) -> None:
     """So many times one to three places of request and answer hold something else."""
     request, answer = pair(name)
-    sent = {"request": request, "answer": answer}
-    chance, places = random.Random(seed), [path for path in paths(sent) if path]
+    fields = {"request": request, "answer": answer}
+    chance, places = random.Random(seed), [path for path in paths(fields) if path]
     for _ in range(count):
-        found = sent
+        variant = fields
         for path in chance.sample(places, chance.randint(1, 3)):
             try:
-                found = replaced(found, path, chance.choice(VALUES))
+                variant = replaced(variant, path, chance.choice(VALUES))
             except TypeError:
                 # what it stood in is no longer there
                 continue
-        judged(found["request"], found["answer"])
+        judged(variant["request"], variant["answer"])
 
 
 @pytest.mark.parametrize("name", KINDS)
@@ -63,12 +63,12 @@ ONCE_RAISED = (
 @pytest.mark.parametrize(("name", "path", "value"), ONCE_RAISED)
 def test_what_once_raised_is_judged(name: str, path: tuple[str | int, ...], value: float) -> None:
     request, answer = pair(name)
-    found = replaced({"request": request, "answer": answer}, path, value)
-    judged(found["request"], found["answer"])
+    variant = replaced({"request": request, "answer": answer}, path, value)
+    judged(variant["request"], variant["answer"])
 
 
 def test_counterweights_of_another_machine_are_broken() -> None:
     """Groups of webs that the answer does not have once raised."""
     request, _ = pair("groups")
-    _, other = pair("scroll-oldham")
-    judged(request, other)
+    _, value = pair("scroll-oldham")
+    judged(request, value)

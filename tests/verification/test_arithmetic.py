@@ -42,34 +42,34 @@ def sides(number: Any) -> tuple[Fraction, Fraction]:
     return number.y[0] * _UNIT, number.y[1] * _UNIT
 
 
-def near(found: tuple[Fraction, Fraction], wanted: list[Fraction]) -> bool:
+def near(pair: tuple[Fraction, Fraction], numbers: list[Fraction]) -> bool:
     """Whether an interval is that of these, but for its own rounding."""
-    return min(wanted) - 4 * _UNIT <= found[0] <= min(wanted) and max(wanted) <= found[1] <= max(wanted) + 4 * _UNIT
+    return min(numbers) - 4 * _UNIT <= pair[0] <= min(numbers) and max(numbers) <= pair[1] <= max(numbers) + 4 * _UNIT
 
 
 @given(rectangles(), rectangles())
-def test_sums_and_differences_are_exact(one: Any, other: Any) -> None:
+def test_sums_and_differences_are_exact(first: Any, second: Any) -> None:
     """Independent: fractions."""
-    assert ends(one + other) == tuple(a + b for a, b in zip(ends(one), ends(other), strict=True))
-    assert sides(one + other) == tuple(a + b for a, b in zip(sides(one), sides(other), strict=True))
-    assert ends(one - other) == (ends(one)[0] - ends(other)[1], ends(one)[1] - ends(other)[0])
-    assert sides(one - other) == (sides(one)[0] - sides(other)[1], sides(one)[1] - sides(other)[0])
-    assert ends(-one) == tuple(-a for a in ends(one)[::-1])
-    assert sides(one.conjugate()) == tuple(-a for a in sides(one)[::-1])
-    assert ends(one.conjugate()) == ends(one)
+    assert ends(first + second) == tuple(a + b for a, b in zip(ends(first), ends(second), strict=True))
+    assert sides(first + second) == tuple(a + b for a, b in zip(sides(first), sides(second), strict=True))
+    assert ends(first - second) == (ends(first)[0] - ends(second)[1], ends(first)[1] - ends(second)[0])
+    assert sides(first - second) == (sides(first)[0] - sides(second)[1], sides(first)[1] - sides(second)[0])
+    assert ends(-first) == tuple(-a for a in ends(first)[::-1])
+    assert sides(first.conjugate()) == tuple(-a for a in sides(first)[::-1])
+    assert ends(first.conjugate()) == ends(first)
 
 
 @given(rectangles(), rectangles())
-def test_products_are_those_of_all_corners(one: Any, other: Any) -> None:
+def test_products_are_those_of_all_corners(first: Any, second: Any) -> None:
     """Independent: fractions, every corner with every other."""
-    found = one * other
-    xx = [a * b for a, b in product(ends(one), ends(other))]
-    yy = [a * b for a, b in product(sides(one), sides(other))]
-    xy = [a * b for a, b in product(ends(one), sides(other))]
-    yx = [a * b for a, b in product(sides(one), ends(other))]
-    assert near(ends(found), [min(xx) - max(yy), max(xx) - min(yy)])
-    assert near(sides(found), [min(xy) + min(yx), max(xy) + max(yx)])
-    along = one.along(other)
+    actual_second = first * second
+    xx = [a * b for a, b in product(ends(first), ends(second))]
+    yy = [a * b for a, b in product(sides(first), sides(second))]
+    xy = [a * b for a, b in product(ends(first), sides(second))]
+    yx = [a * b for a, b in product(sides(first), ends(second))]
+    assert near(ends(actual_second), [min(xx) - max(yy), max(xx) - min(yy)])
+    assert near(sides(actual_second), [min(xy) + min(yx), max(xy) + max(yx)])
+    along = first.along(second)
     assert near(ends(along), [min(xx) + min(yy), max(xx) + max(yy)])
     assert along.y == (0, 0)
 
@@ -86,41 +86,41 @@ def test_what_a_sector_takes_off_is_enclosed(pull: Any, centre: float, half: flo
 
 
 @given(rectangles(real=True), rectangles(real=True))
-def test_real_products_and_quotients(one: Any, other: Any) -> None:
-    corners = [a * b for a, b in product(ends(one), ends(other))]
-    found = one * other
-    assert near(ends(found), corners)
-    assert found.y == (0, 0)
-    if other.low > 0:
-        quotients = [a / b for a, b in product(ends(one), ends(other))]
-        low, high = ends(one / other)
+def test_real_products_and_quotients(first: Any, second: Any) -> None:
+    corners = [a * b for a, b in product(ends(first), ends(second))]
+    actual_second = first * second
+    assert near(ends(actual_second), corners)
+    assert actual_second.y == (0, 0)
+    if second.low > 0:
+        quotients = [a / b for a, b in product(ends(first), ends(second))]
+        low, high = ends(first / second)
         # a quotient is a product with a reciprocal that is rounded
-        slack = 8 * _UNIT * (1 + max(map(abs, ends(one))))
+        slack = 8 * _UNIT * (1 + max(map(abs, ends(first))))
         assert min(quotients) - slack <= low <= min(quotients)
         assert max(quotients) <= high <= max(quotients) + slack
 
 
 @given(rectangles())
-def test_the_length_of_a_rectangle_is_that_of_its_nearest_and_farthest_corners(one: Any) -> None:
-    (a, b), (c, d) = ends(one), sides(one)
+def test_the_length_of_a_rectangle_is_that_of_its_nearest_and_farthest_corners(value: Any) -> None:
+    (a, b), (c, d) = ends(value), sides(value)
     nearest = [Fraction(0) if low <= 0 <= high else min(abs(low), abs(high)) for low, high in ((a, b), (c, d))]
     farthest = [max(abs(low), abs(high)) for low, high in ((a, b), (c, d))]
-    low, high = ends(abs(one))
-    square = [sum(each * each for each in some) for some in (nearest, farthest)]
+    low, high = ends(abs(value))
+    square = [sum(number * number for number in some) for some in (nearest, farthest)]
     assert low * low <= square[0] < (low + 2 * _UNIT) ** 2 or square[0] == 0 == low
     assert high * high >= square[1]
     assert high == 0 or (high - 2 * _UNIT) ** 2 <= square[1]
 
 
 @given(rectangles())
-def test_parts_and_middles(one: Any) -> None:
-    along, across = one.parts()
-    assert (ends(along), along.y) == (ends(one), (0, 0))
-    assert (ends(across), across.y) == (sides(one), (0, 0))
-    middle = one.middle()
-    assert middle.real == pytest.approx(float(sum(ends(one)) / 2), rel=1e-15, abs=1e-300)
-    assert middle.imag == pytest.approx(float(sum(sides(one)) / 2), rel=1e-15, abs=1e-300)
-    assert float(along) == pytest.approx(float(ends(one)[1]), rel=1e-15, abs=1e-300)
+def test_parts_and_middles(subject: Any) -> None:
+    along, across = subject.parts()
+    assert (ends(along), along.y) == (ends(subject), (0, 0))
+    assert (ends(across), across.y) == (sides(subject), (0, 0))
+    middle = subject.middle()
+    assert middle.real == pytest.approx(float(sum(ends(subject)) / 2), rel=1e-15, abs=1e-300)
+    assert middle.imag == pytest.approx(float(sum(sides(subject)) / 2), rel=1e-15, abs=1e-300)
+    assert float(along) == pytest.approx(float(ends(subject)[1]), rel=1e-15, abs=1e-300)
 
 
 @given(st.floats(allow_nan=False, allow_infinity=False))
@@ -151,18 +151,18 @@ def test_fractions_are_enclosed_and_what_is_not_finite_is_no_number() -> None:
 
 @pytest.mark.parametrize("degrees", [0.0, 90.0, 180.0, 270.0, 360.0, -90.0, 1e6 * 90.0])
 def test_quarter_turns_are_exact(degrees: float) -> None:
-    found = part("numbers").direction(degrees)
+    direction = part("numbers").direction(degrees)
     x, y = ((1, 0), (0, 1), (-1, 0), (0, -1))[round(degrees / 90) % 4]
-    assert (ends(found), sides(found)) == ((x, x), (y, y))
+    assert (ends(direction), sides(direction)) == ((x, x), (y, y))
 
 
 @given(st.floats(-1e6, 1e6))
 def test_directions_are_enclosed_by_less_than_their_digits(degrees: float) -> None:
     """Independent: sine and cosine at 400 bits."""
-    found = part("numbers").direction(degrees)
+    direction = part("numbers").direction(degrees)
     with mpmath.workprec(400):
         angle = mpmath.radians(mpmath.mpf(degrees))
-        for (low, high), exact in ((ends(found), mpmath.cos(angle)), (sides(found), mpmath.sin(angle))):
+        for (low, high), exact in ((ends(direction), mpmath.cos(angle)), (sides(direction), mpmath.sin(angle))):
             assert mpmath.mpf(low.numerator) / low.denominator <= exact
             assert exact <= mpmath.mpf(high.numerator) / high.denominator
             assert high - low <= Fraction(1, 2**212)
@@ -231,9 +231,9 @@ def test_the_moment_in_a_shaft_is_that_of_the_service(continuous: bool) -> None:
     places, loads, planes = np.sort(rng.uniform(-1, 1, 4)), rng.uniform(-1.5, 1.5, 5), rng.uniform(-1.5, 1.5, 6)
     influence = (continuous_beam_influence if continuous else simple_spans_influence)(places, loads)
     expected = bending_moment(places, influence + 0j, loads, np.eye(5) + 0j, planes).real
-    spans = part("spans").Spans([Fraction(one) for one in places], continuous)
-    found = [[float(spans.bending(Fraction(plane), Fraction(load))) for load in loads] for plane in planes]
-    np.testing.assert_allclose(found, expected, atol=1e-12)
+    spans = part("spans").Spans([Fraction(place) for place in places], continuous)
+    bendings = [[float(spans.bending(Fraction(plane), Fraction(load))) for load in loads] for plane in planes]
+    np.testing.assert_allclose(bendings, expected, atol=1e-12)
     assert spans.extent == Fraction(places[-1]) - Fraction(places[0])
 
 
@@ -256,22 +256,22 @@ def test_plates_have_the_figures_of_the_service(inner: float, shape: str, kind: 
     plates = part("plates")
     body = {"shape": shape, "inner_radius_m": inner, "outer_radius_m": 0.25, "thickness_m": 0.04,
             "density_kg_m3": 7000.0, "max_half_angle_deg": 80.0}  # fmt: skip
-    found = plates.plate(part("numbers").Place(body, "request", "envelope"))
-    other = kind(inner, 0.25, 280.0, np.deg2rad(80.0))
-    assert found.most == pytest.approx(float(other.most))
-    for angle in (1e-3, 0.03, 0.3, 1.0, found.most):
+    plate = plates.plate(part("numbers").Place(body, "request", "envelope"))
+    point = kind(inner, 0.25, 280.0, np.deg2rad(80.0))
+    assert plate.most == pytest.approx(float(point.most))
+    for angle in (1e-3, 0.03, 0.3, 1.0, plate.most):
         for name in ("mass", "unbalance", "inertia", "lever"):
-            assert getattr(found, name)(angle) == pytest.approx(float(getattr(other, name)(angle)), rel=1e-11), name
-        assert plates.opened(found, found.unbalance(angle)) == pytest.approx(angle, rel=1e-9)
-        assert found.up_to(found.mass(angle)) == pytest.approx(angle, rel=1e-9)
-    assert found.up_to(1e9) == found.most
+            assert getattr(plate, name)(angle) == pytest.approx(float(getattr(point, name)(angle)), rel=1e-11), name
+        assert plates.opened(plate, plate.unbalance(angle)) == pytest.approx(angle, rel=1e-9)
+        assert plate.up_to(plate.mass(angle)) == pytest.approx(angle, rel=1e-9)
+    assert plate.up_to(1e9) == plate.most
     # independent: the best of many openings
-    openings = np.linspace(0.0, found.most, 100_001)
-    mass, unbalance = other.mass(openings), other.unbalance(openings)
+    openings = np.linspace(0.0, plate.most, 100_001)
+    mass, unbalance = point.mass(openings), point.unbalance(openings)
     for price, cost in ((0.0, 1.0), (3.0, 1.0), (8.0, 1.0), (100.0, 1.0), (5.0, 0.0)):
         for limit in (0.3 * float(mass[-1]), 1e9):
             best = np.max(np.where(mass <= limit, price * unbalance - cost * mass, 0.0), initial=0.0)
-            low, high = found.worth(price, cost, limit)
+            low, high = plate.worth(price, cost, limit)
             assert low <= high
             assert best <= high + 1e-12
             assert best == pytest.approx(low, rel=2e-4, abs=1e-5 * float(mass[-1]))
@@ -287,8 +287,8 @@ def test_a_chamber_has_the_pressures_and_breaks_of_the_service(side: str) -> Non
     """Independent: the gas forces of the mechanics."""
     radius, length, clearance = 0.14, 0.7, 0.12
     plan = layout(machine(throw(0.0, row(0.0, length_m=length), radius_m=radius)))
-    one = np.ones((1, 2))
-    chambers = Chambers(0.3 * one, 1e5 * one, 4e5 * one, clearance * one, 1.2 * one, 1.35 * one, one > 0)
+    ones = np.ones((1, 2))
+    chambers = Chambers(0.3 * ones, 1e5 * ones, 4e5 * ones, clearance * ones, 1.2 * ones, 1.35 * ones, ones > 0)
     gas, k = part("gas"), ("head", "crank").index(side)
     cycle = gas.Cycle(side == "head", 0.3, 1e5, 4e5, clearance * 2 * radius, 2 * radius, 1.2, 1.35)
     assert cycle.most == 4e5
@@ -307,7 +307,7 @@ def test_a_chamber_has_the_pressures_and_breaks_of_the_service(side: str) -> Non
         pressure = cycle.at(piston, bool(angle < np.pi))
         assert pressure == pytest.approx(float(expected.pressure[0, k, n]), rel=1e-11)
         assert gas.force(cycle, pressure) == pytest.approx(float(expected.force[0, k, n]), rel=1e-11)
-    opens, closes = (float(each[0, k]) for each in switching_angles(chambers, plan))
+    opens, closes = (float(switching_angle[0, k]) for switching_angle in switching_angles(chambers, plan))
     assert cycle.breaks(radius / length) == pytest.approx((opens, closes), rel=1e-11)
 
 
@@ -324,8 +324,8 @@ def test_slopes_of_a_pressure_are_not_exceeded(side: str) -> None:
         slopes = cycle.slopes(first, last, to_shaft)
         flat += slopes == gas.FLAT
         inside = [gas.motion(ratio, start + (end - start) * n / 200) for n in range(1, 200)]
-        travel = [0.5 * 0.28 * (one.travel if cycle.head else one.rest) for one in inside]
-        pressure = [cycle.at(one, to_shaft) for one in inside]
+        travel = [0.5 * 0.28 * (entry.travel if cycle.head else entry.rest) for entry in inside]
+        pressure = [cycle.at(value, to_shaft) for value in inside]
         first_order = [
             abs((q - p) / (y - x)) for p, q, x, y in zip(pressure, pressure[1:], travel, travel[1:], strict=False)
         ]
@@ -352,7 +352,7 @@ def test_an_indicated_pressure_is_linear_between_its_entries(turns: int) -> None
             (own - 0.3) % cycle, [angles[2] - cycle, *angles, angles[0] + cycle], [2e5, 1e5, 5e5, 2e5, 1e5]
         )
         assert table.at(gas.motion(0.2, float(own)), True) == pytest.approx(expected, rel=1e-12)
-    assert table.breaks(0.2) == pytest.approx([each + 0.3 for each in angles])
+    assert table.breaks(0.2) == pytest.approx([angle + 0.3 for angle in angles])
     assert table.most == 5e5
     first, last = (gas.motion(0.2, 0.3 + float(angles[0]) + step) for step in (0.1, 0.4))
     assert table.slopes(first, last, True) == (0.0, 0.0, pytest.approx(4e5 / (angles[1] - angles[0])))
@@ -366,7 +366,7 @@ def test_an_indicated_pressure_is_linear_between_its_entries(turns: int) -> None
 @pytest.mark.parametrize("count", [1, 2, 5, 8])
 def test_quadratures_are_those_of_gauss_and_legendre(count: int) -> None:
     """Independent: numpy."""
-    found = sorted(part("gas").gauss(count))
+    gauss = sorted(part("gas").gauss(count))
     nodes, weights = np.polynomial.legendre.leggauss(count)
-    np.testing.assert_allclose([each for each, _ in found], 0.5 * (nodes + 1.0), atol=1e-14)
-    np.testing.assert_allclose([each for _, each in found], 0.5 * weights, atol=1e-14)
+    np.testing.assert_allclose([value for value, _ in gauss], 0.5 * (nodes + 1.0), atol=1e-14)
+    np.testing.assert_allclose([value for _, value in gauss], 0.5 * weights, atol=1e-14)

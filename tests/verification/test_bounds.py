@@ -85,11 +85,11 @@ def test_the_angle_from_a_crank(angle: float, printed: float | None, right: bool
 def test_castings_are_counted_by_their_masses(masses: list[float], pieces: int, sizes: int) -> None:
     """Analytic: of one size are masses that differ by up to 1e-9 of themselves; what is fixed is not counted."""
     webs = [{"name": str(k)} for k in range(3)] + [{"name": "there", "fixed": {"mass_kg": 9.0}}]
-    answer = place({"counterweights": [{"mass_kg": one} for one in [*masses, 9.0]]})
+    answer = place({"counterweights": [{"mass_kg": mass} for mass in [*masses, 9.0]]})
     machine = place({"webs": webs, "catalogue": {"masses_kg": [1.0]}}, "request")
-    found = part("alternatives").costs(machine, answer, real(7.0))
-    assert {name: float(one) for name, one in found.items()} == {"mass": 7.0, "pieces": pieces, "sizes": sizes}
-    assert part("levels")._sizes(sorted(one for one in masses if one > 0)) == sizes
+    costs = part("alternatives").costs(machine, answer, real(7.0))
+    assert {name: float(cost) for name, cost in costs.items()} == {"mass": 7.0, "pieces": pieces, "sizes": sizes}
+    assert part("levels")._sizes(sorted(mass for mass in masses if mass > 0)) == sizes
 
 
 @pytest.mark.parametrize(("first", "second", "room"), [(0.3, 0.5, 0.3), (0.5, 0.3, 0.3), (-0.5, 0.3, -0.5),
@@ -97,8 +97,8 @@ def test_castings_are_counted_by_their_masses(masses: list[float], pieces: int, 
                                                         (math.nan, 1e-5, 1e-5), (math.nan, 1e-4, None),
                                                         (math.nan, math.nan, None)])  # fmt: skip
 def test_the_tighter_of_two_rooms(first: float, second: float, room: float | None) -> None:
-    found = part("ceilings")._tighter(first, second)
-    assert math.isnan(found) if room is None else found == room
+    value = part("ceilings")._tighter(first, second)
+    assert math.isnan(value) if room is None else value == room
 
 
 def _priced(**more: Any) -> Any:
@@ -115,15 +115,15 @@ def _priced(**more: Any) -> Any:
     ],
 )  # fmt: skip
 def test_a_price_is_by_what_is_weighed_first(value: float, right: bool) -> None:
-    told = place([{"limit": "max_mass", "web": "a", "value": value, "unit": "N/kg"}])
-    assert held(part("prices").listed_prices(told, [_priced()], 4.0, "N", 1e-9, 1e-9, 0.0)) == right
+    position = place([{"limit": "max_mass", "web": "a", "value": value, "unit": "N/kg"}])
+    assert held(part("prices").listed_prices(position, [_priced()], 4.0, "N", 1e-9, 1e-9, 0.0)) == right
 
 
 @pytest.mark.parametrize(("gap", "right"), [(17.99, True), (17.97, False)])
 def test_a_whole_limit_that_is_worth_less_than_the_gap_has_no_price(gap: float, right: bool) -> None:
     """Analytic: 3 kg at 6 N/kg are 18 N, and a thousandth of the gap more counts as less."""
-    told = place([{"limit": "max_mass", "web": "a", "value": 0.0, "unit": "N/kg"}])
-    assert held(part("prices").listed_prices(told, [_priced()], 4.0, "N", gap, 1e-9, 0.0)) == right
+    position = place([{"limit": "max_mass", "web": "a", "value": 0.0, "unit": "N/kg"}])
+    assert held(part("prices").listed_prices(position, [_priced()], 4.0, "N", gap, 1e-9, 0.0)) == right
 
 
 @pytest.mark.parametrize(("off", "dust", "rest", "right"), [
@@ -133,8 +133,8 @@ def test_a_whole_limit_that_is_worth_less_than_the_gap_has_no_price(gap: float, 
 ])  # fmt: skip
 def test_what_rounding_leaves_of_a_price(off: float, dust: float, rest: float, right: bool) -> None:
     for sign in (1, -1):
-        told = place([{"limit": "max_mass", "web": "a", "value": 1.5 + sign * off, "unit": "N/kg"}])
-        assert held(part("prices").listed_prices(told, [_priced()], 4.0, "N", 1e-9, rest, dust)) == right
+        position = place([{"limit": "max_mass", "web": "a", "value": 1.5 + sign * off, "unit": "N/kg"}])
+        assert held(part("prices").listed_prices(position, [_priced()], 4.0, "N", 1e-9, rest, dust)) == right
 
 
 @pytest.mark.parametrize(("price", "touched", "edge", "must"), [
@@ -146,11 +146,11 @@ def test_a_limit_that_is_worth_something_is_listed(price: float, touched: bool, 
     stated = [_priced(price=price, touched=touched, edge=edge)]
     assert held(part("prices").listed_prices(place([]), stated, 1.0, "N", 1.0, 3000.0, 0.0)) != must
     # what is listed twice, or is no limit
-    one = {"limit": "max_mass", "web": "a", "value": price, "unit": "N/kg"}
-    assert not held(part("prices").listed_prices(place([one, one]), stated, 1.0, "N", 1.0, 3000.0, 0.0))
-    other = one | {"web": "b"}
-    assert not held(part("prices").listed_prices(place([one, other]), stated, 1.0, "N", 1.0, 3000.0, 0.0))
-    assert not held(part("prices").listed_prices(place([one | {"unit": "N"}]), stated, 1.0, "N", 1.0, 3e3, 0.0))
+    first = {"limit": "max_mass", "web": "a", "value": price, "unit": "N/kg"}
+    assert not held(part("prices").listed_prices(place([first, first]), stated, 1.0, "N", 1.0, 3000.0, 0.0))
+    second = first | {"web": "b"}
+    assert not held(part("prices").listed_prices(place([first, second]), stated, 1.0, "N", 1.0, 3000.0, 0.0))
+    assert not held(part("prices").listed_prices(place([first | {"unit": "N"}]), stated, 1.0, "N", 1.0, 3e3, 0.0))
 
 
 @pytest.mark.parametrize(("values", "value", "right"), [
@@ -168,9 +168,9 @@ def test_a_value_of_an_axis_is_listed_or_between_its_ends(values: Any, value: An
 
 def _curve(points: list[tuple[float, float]], knee: int | None, **ends: float) -> Any:
     (x, high), (far, low) = points[0], points[-1]
-    shown = {"smallest_force_N": x, "moment_at_smallest_force_Nm": high, "force_at_smallest_moment_N": far}
+    fields = {"smallest_force_N": x, "moment_at_smallest_force_Nm": high, "force_at_smallest_moment_N": far}
     peaks = [{"status": "optimal", "weighted_force_peak_N": f, "weighted_moment_peak_Nm": m} for f, m in points]
-    body = {"points": peaks, "ends": shown | {"smallest_moment_Nm": low} | ends, "status": "optimal", "knee": knee}
+    body = {"points": peaks, "ends": fields | {"smallest_moment_Nm": low} | ends, "status": "optimal", "knee": knee}
     return held(part("many")._shape(place(body)))
 
 
@@ -212,8 +212,8 @@ def test_what_turns_with_a_balance_shaft(ratio: int, mirrored: bool) -> None:
     first = shaft.first(real(3.0), real(5.0))
     assert float(first) == {1: 3.0, -1: 5.0}.get(ratio, 0.0)
     for times in (0, 1, 3, -1, -2):
-        found = part("shafts").power(unit, times).middle()
-        assert found == pytest.approx(cmath.exp(1j * times * t), rel=1e-13)
+        middle = part("shafts").power(unit, times).middle()
+        assert middle == pytest.approx(cmath.exp(1j * times * t), rel=1e-13)
 
 
 _STATE = {"suction_pressure_Pa": 1e5, "discharge_pressure_Pa": 4e5, "relative_clearance": 0.1,
@@ -226,14 +226,14 @@ _BORE = {"bore_m": 0.2, "piston_rod_diameter_m": 0.05}
                                               ("compression_exponent", 1.0), ("expansion_exponent", 0.5)])  # fmt: skip
 def test_a_cycle_that_is_none_is_not_covered(name: str, value: float) -> None:
     gas = part("gas")
-    given = _STATE | _BORE | {"crank": {"relative_clearance": 0.2, "suction_pressure_Pa": 4e5}}
-    row = place({"cylinder": given}, "request")
+    state = _STATE | _BORE | {"crank": {"relative_clearance": 0.2, "suction_pressure_Pa": 4e5}}
+    row = place({"cylinder": state}, "request")
     head, crank = gas.chambers(row, 0.3, 0.0)
     assert head == gas.Cycle(True, pytest.approx(math.pi * 0.01), 1e5, 4e5, pytest.approx(0.03), 0.3, 1.2, 1.3)
     assert (crank.head, crank.low, crank.high, crank.clear) == (False, 4e5, 4e5, pytest.approx(0.06))
     assert crank.area == pytest.approx(math.pi / 4 * (0.04 - 0.0025), rel=1e-14)
     with pytest.raises(part("numbers").NotCovered) as refused:
-        list(gas.chambers(place({"cylinder": given | {name: value, "crank": {}}}, "request"), 0.3, 0.0))
+        list(gas.chambers(place({"cylinder": state | {name: value, "crank": {}}}, "request"), 0.3, 0.0))
     assert refused.value.args[0].path == ("request", "cylinder")
 
 
@@ -241,14 +241,14 @@ def test_a_cycle_that_is_none_is_not_covered(name: str, value: float) -> None:
                                                ("crank", (False, True))])  # fmt: skip
 def test_the_side_that_does_not_act_has_the_pressure_around_it(acting: str, acts: tuple[bool, bool]) -> None:
     gas, cylinder = part("gas"), _STATE | _BORE | {"acting": acting, "ambient_pressure_Pa": 9e4}
-    for side, found, acting_too in zip((True, False), gas.chambers(place({"cylinder": cylinder}), 0.3, 0.0), acts,
+    for side, chamber, acting_too in zip((True, False), gas.chambers(place({"cylinder": cylinder}), 0.3, 0.0), acts,
                                        strict=True):  # fmt: skip
-        assert isinstance(found, gas.Cycle if acting_too else gas.Table)
-        assert found.head == side
+        assert isinstance(chamber, gas.Cycle if acting_too else gas.Table)
+        assert chamber.head == side
         if not acting_too:
-            assert (found.angles, found.pressures) == ([0.0], [9e4])
+            assert (chamber.angles, chamber.pressures) == ([0.0], [9e4])
     areas = {"head_area_m2": 0.03, "crank_area_m2": 0.0}
-    bare = {name: one for name, one in cylinder.items() if name not in _BORE}
+    bare = {name: value for name, value in cylinder.items() if name not in _BORE}
     head, crank = gas.chambers(place({"cylinders": [bare | areas]}), 0.3, 0.0)
     assert (head.area, crank.area) == (0.03, 0.0)
     assert isinstance(crank, gas.Table)
@@ -296,19 +296,19 @@ def test_gaps_of_the_mass_are_up_to_a_ten_thousandth() -> None:
 def test_a_budget_is_worth_what_is_left_out_next(price: float, expected: float) -> None:
     """Analytic: gains of 8, 2 and -1 on 3, 4 and 5 kg with a budget of 5: the next kilogram is worth 2."""
     gains = [(real(8.0), real(3.0)), (real(2.0), real(4.0)), (real(-1.0), real(5.0))]
-    found = part("program").worth_of_budget(real(price), gains, real(5.0))
-    assert float(found) == expected
+    actual = part("program").worth_of_budget(real(price), gains, real(5.0))
+    assert float(actual) == expected
 
 
 _INTERVALS = ((-3, 0), (0, 5), (-3, 5), (1, 4), (-4, -1), (0, 0), (-2, -2), (7, 7))
 
 
-@pytest.mark.parametrize("one", _INTERVALS)
-@pytest.mark.parametrize("other", _INTERVALS)
-def test_a_product_of_intervals_that_end_at_0(one: tuple[int, int], other: tuple[int, int]) -> None:
+@pytest.mark.parametrize("first", _INTERVALS)
+@pytest.mark.parametrize("second", _INTERVALS)
+def test_a_product_of_intervals_that_end_at_0(first: tuple[int, int], second: tuple[int, int]) -> None:
     """Independent: the products of all ends."""
-    every = [a * b for a in one for b in other]
-    assert part("numbers")._product(one, other) == (min(every), max(every))
-    low, high = one
+    every = [a * b for a in first for b in second]
+    assert part("numbers")._product(first, second) == (min(every), max(every))
+    low, high = first
     least = 0 if low <= 0 <= high else min(abs(low), abs(high))
     assert part("numbers")._distance(low, high) == (least, max(abs(low), abs(high)))

@@ -24,14 +24,14 @@ SEVERAL = (
 
 
 def _claims(request: Any, answer: Any) -> dict[str, str]:
-    return {one["claim"]: one["verdict"] for one in checker().verify(request, answer)["claims"]}
+    return {claim["claim"]: claim["verdict"] for claim in checker().verify(request, answer)["claims"]}
 
 
 @pytest.mark.parametrize("name", part(2, SEVERAL))
 def test_what_multipliers_prove_is_held_and_no_more(name: str) -> None:
     request, answer = pair(name)
-    found = _claims(request, answer)
-    assert (found["lower_bound"], found["mass_lower_bound"]) == ("held", "held")
+    claims = _claims(request, answer)
+    assert (claims["lower_bound"], claims["mass_lower_bound"]) == ("held", "held")
     proof = answer["certificate"]
     for field, more in (("lower_bound", 1.5 * proof["gap"]), ("mass_lower_bound_kg", 1e-4 * answer["total_mass_kg"])):
         wrong = copy.deepcopy(answer)
@@ -42,15 +42,15 @@ def test_what_multipliers_prove_is_held_and_no_more(name: str) -> None:
 @pytest.mark.parametrize("name", ["scenarios", "tolerances"])
 def test_values_of_the_first_order_are_evaluated_anew(name: str) -> None:
     request, answer = pair(name)
-    found = _claims(request, answer)
-    assert {found[one] for one in ("objective", "before", "worst_case", "price")} == {"held"}
+    claims = _claims(request, answer)
+    assert {claims[text] for text in ("objective", "before", "worst_case", "price")} == {"held"}
 
 
 #: what takes seconds to check; what is made up of it, the nightly form looks at
 _LONG = ("four strokes",)
 
 
-@pytest.mark.parametrize("name", part(2, (one for one in KINDS[::6] if one not in _LONG)))
+@pytest.mark.parametrize("name", part(2, (kind for kind in KINDS[::6] if kind not in _LONG)))
 def test_nothing_that_is_made_up_passes(name: str) -> None:
     for way, request, answer in fabricated(name):
         try:
@@ -84,7 +84,7 @@ def test_the_price_of_a_budget_beside_plates_has_to_prove_the_bound() -> None:
         wrong = copy.deepcopy(answer)
         wrong["shadow_prices"][0]["value"] *= factor
         wrong["certificate"]["multipliers"]["objective"]["budget"] *= factor
-        assert any(one.startswith("shadow_prices") for one in broken(request, wrong))
+        assert any(claim.startswith("shadow_prices") for claim in broken(request, wrong))
 
 
 def test_the_bound_of_every_goal_in_order_is_proven() -> None:
@@ -93,12 +93,15 @@ def test_the_bound_of_every_goal_in_order_is_proven() -> None:
     for goal in answer["certificate"]["goals"]:
         bound = goal["lower_bound"]
         goal["lower_bound"] = bound + 1e-6 * goal["value"]
-        assert any(one.startswith("goals") for one in broken(request, answer))
+        assert any(claim.startswith("goals") for claim in broken(request, answer))
         goal["lower_bound"] = bound
     for goal in answer["certificate"]["goals"]:
         goal["multipliers"] = None
-    found = checker().verify(request, answer)
-    assert (found["verdict"], found["not_covered"]) == ("not covered", ["/answer/certificate/goals/*/lower_bound"])
+    judgement = checker().verify(request, answer)
+    assert (judgement["verdict"], judgement["not_covered"]) == (
+        "not covered",
+        ["/answer/certificate/goals/*/lower_bound"],
+    )
 
 
 @pytest.mark.parametrize(("field", "factor"), [("value", 0.999), ("limit", 0.999), ("lower_bound", 1.0001)])
@@ -108,7 +111,7 @@ def test_what_a_minimum_mass_came_to_is_held(field: str, factor: float) -> None:
     mass = answer["certificate"]["goals"][-1]
     assert mass["goal"] == "mass"
     mass[field] *= factor
-    assert any(one.startswith("goals") for one in broken(request, answer))
+    assert any(claim.startswith("goals") for claim in broken(request, answer))
 
 
 @pytest.mark.parametrize("name", ["scenarios", "tolerances", "tolerances over the turn"])
@@ -129,12 +132,14 @@ def test_the_best_of_the_machine_as_it_is_given_is_proven(name: str) -> None:
     # a bound that is lower than was sought is no lie, and is named
     price["nominal_lower_bound"] *= 0.999
     judged = checker().verify(request, answer)
-    open_claims = [each["where"] for each in judged["claims"] if each["verdict"] != "held"]
+    open_claims = [claim["where"] for claim in judged["claims"] if claim["verdict"] != "held"]
     assert (judged["verdict"], open_claims) == ("not covered", ["/answer/price_of_robustness/nominal_lower_bound"])
     price["nominal_lower_bound"] /= 0.999
-    heavy = max(price["nominal_counterweights"], key=lambda one: float(one["mass_kg"]))
+    heavy = max(
+        price["nominal_counterweights"], key=lambda nominal_counterweight: float(nominal_counterweight["mass_kg"])
+    )
     heavy["mass_kg"] *= 1.001
-    assert any(one.startswith("counterweights") for one in broken(request, answer))
+    assert any(claim.startswith("counterweights") for claim in broken(request, answer))
 
 
 @pytest.mark.parametrize("base", ["twin", "scroll"])
@@ -225,4 +230,4 @@ def test_an_earlier_goal_is_near_its_bound(fields: tuple[str, ...]) -> None:
     more = 0.01 * goal["value"]
     for field in fields:
         goal[field] += more
-    assert any(one.startswith("goals") for one in broken(request, answer))
+    assert any(claim.startswith("goals") for claim in broken(request, answer))

@@ -35,8 +35,8 @@ def test_every_kind_of_answer_is_held(case: tuple[dict[str, Any], dict[str, Any]
 
 
 def test_the_kinds_are_what_they_say() -> None:
-    told = {name: optimize(OptimizeRequest.model_validate(body)).status for name, body in SINGLE.items()}
-    assert {name for name, status in told.items() if status == "infeasible"} == {
+    statuses = {name: optimize(OptimizeRequest.model_validate(body)).status for name, body in SINGLE.items()}
+    assert {name for name, status in statuses.items() if status == "infeasible"} == {
         name for name in SINGLE if name.startswith("infeasible")
     }
 
@@ -87,7 +87,7 @@ def test_multipliers_that_are_too_long_prove_no_more() -> None:
         term["x"] *= 1000
         term["y"] *= 1000
     answer["certificate"]["lower_bound"] = answer["certificate"]["objective"]
-    assert any(one.startswith("lower_bound") for one in broken(body, answer))
+    assert any(claim.startswith("lower_bound") for claim in broken(body, answer))
 
 
 def test_a_hair_of_mass_is_told_to_what_counts() -> None:
@@ -98,7 +98,7 @@ def test_a_hair_of_mass_is_told_to_what_counts() -> None:
     assert answer["total_mass_kg"] == pytest.approx(1e-6, rel=0.02)
     assert certificate["mass_yardstick_kg"] == pytest.approx(1e-4, rel=1e-12)
     certificate["mass_yardstick_kg"] *= 1 + 1e-6
-    assert any(one.startswith("yardstick") for one in broken(body, answer))
+    assert any(claim.startswith("yardstick") for claim in broken(body, answer))
 
 
 @pytest.mark.parametrize(("span", "mass"), [(1e-249, 0.5), (1e-235, 0.5), (1e-251, 1.0)])
@@ -125,7 +125,7 @@ def test_what_missing_limits_imply_need_not_be_believed() -> None:
         certificate["implied_max_mass_kg"] = dict.fromkeys(certificate["implied_max_mass_kg"], mass)
         assert verdict(body, answer) == "held"
     certificate["lower_bound"] *= 1 + 1e-6
-    assert any(one.startswith("lower_bound") for one in broken(body, answer))
+    assert any(claim.startswith("lower_bound") for claim in broken(body, answer))
 
 
 def test_a_budget_beyond_any_need_beside_plates_costs_nothing() -> None:
@@ -145,16 +145,16 @@ def test_a_budget_beyond_any_need_beside_plates_costs_nothing() -> None:
     answer = json.loads(optimized(body).model_dump_json())
     assert answer["status"] == "optimal"
     answer["certificate"]["mass_lower_bound_kg"] *= 1 + 1e-9
-    assert any(one.startswith("mass_lower_bound") for one in broken(body, answer))
+    assert any(claim.startswith("mass_lower_bound") for claim in broken(body, answer))
 
 
 def test_what_the_checker_does_not_know_is_not_covered() -> None:
     body = SINGLE["sum"]
     answer = json.loads(optimize(OptimizeRequest.model_validate(body)).model_dump_json())
     more = {**body, "scenarios": [{"name": "hot", "changes": []}]}
-    found = checker().verify(more, answer)
-    assert found["verdict"] == "not covered"
-    assert "lower_bound" not in [one["claim"] for one in found["claims"]]
+    judgement = checker().verify(more, answer)
+    assert judgement["verdict"] == "not covered"
+    assert "lower_bound" not in [claim["claim"] for claim in judgement["claims"]]
     more = {**body, "savings": [{"name": "hot"}]}
     where = {"claim": "request", "verdict": "not covered", "margin": None, "where": "/request/savings"}
     assert where in checker().verify(more, answer)["claims"]
@@ -163,13 +163,13 @@ def test_what_the_checker_does_not_know_is_not_covered() -> None:
 def test_requests_with_every_field_and_over_the_whole_turn() -> None:
     """All that has its default changes nothing; objectives over the turn are other programs."""
     body = SINGLE["sum"]
-    asked = OptimizeRequest.model_validate(body)
-    answer = json.loads(optimize(asked).model_dump_json())
-    assert verdict(json.loads(asked.model_dump_json()), answer) == "held"
+    query = OptimizeRequest.model_validate(body)
+    answer = json.loads(optimize(query).model_dump_json())
+    assert verdict(json.loads(query.model_dump_json()), answer) == "held"
     for name, value in {"orders": "all", "bearing_weight": 1.0, "bending_ceiling_Nm": 0.0}.items():
-        found = checker().verify({**body, "objective": {name: value}}, answer)
-        assert found["verdict"] != "held"
-        assert "objective" not in [one["claim"] for one in found["claims"] if one["verdict"] == "held"]
+        judgement = checker().verify({**body, "objective": {name: value}}, answer)
+        assert judgement["verdict"] != "held"
+        assert "objective" not in [claim["claim"] for claim in judgement["claims"] if claim["verdict"] == "held"]
 
 
 _ANSWER = json.loads(optimize(OptimizeRequest.model_validate(SINGLE["ceilings"])).model_dump_json())
@@ -182,10 +182,10 @@ _PLACES = [path for path in paths(_ASKED_AND_ANSWERED) if path]
 @given(st.lists(st.tuples(st.sampled_from(_PLACES), JSON), min_size=1, max_size=3))
 def test_nothing_that_is_sent_raises(changes: list[tuple[tuple[str | int, ...], Any]]) -> None:
     """Any JSON in any place of request and answer is judged, or refused by name."""
-    sent: Any = _ASKED_AND_ANSWERED
+    variant: Any = _ASKED_AND_ANSWERED
     for path, value in changes:
-        sent = replaced(sent, path, value)
-    judged(sent["request"], sent["answer"])
+        variant = replaced(variant, path, value)
+    judged(variant["request"], variant["answer"])
 
 
 @given(JSON, JSON)
@@ -223,11 +223,13 @@ def test_what_rounding_of_the_limits_hides_is_no_fault() -> None:
     body = {"machine": machine, "objective": {"force_ceiling_N": 0.0}}
     answer = json.loads(optimize(OptimizeRequest.model_validate(body)).model_dump_json())
     assert answer["infeasibility"]["smallest_moment_Nm"] > 0
-    found = checker().verify(body, answer)
+    judgement = checker().verify(body, answer)
     assert not broken(body, answer)
     value, bound = (answer["infeasibility"][f"smallest_moment_{name}"] for name in ("Nm", "lower_bound_Nm"))
     hidden = bound < (1.0 - 1e-9) * value
-    assert hidden == any(one["claim"] == "smallest_moment" and one["margin"] is None for one in found["claims"])
+    assert hidden == any(
+        claim["claim"] == "smallest_moment" and claim["margin"] is None for claim in judgement["claims"]
+    )
     # of the force, which is no rounding, nothing is let go
     answer["infeasibility"]["smallest_force_N"] *= 1.001
-    assert any(one.startswith("smallest_force") for one in broken(body, answer))
+    assert any(claim.startswith("smallest_force") for claim in broken(body, answer))

@@ -21,15 +21,15 @@ _CLAIMS: list[dict[str, Any]] = [
 def test_a_line_for_each_claim_and_a_code(
     verdict: str, code: int, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    asked, given = tmp_path / "request.json", tmp_path / "answer.json"
-    asked.write_text('{"a": 1}', "utf-8")
-    given.write_text('{"b": 2}', "utf-8")
+    path, file = tmp_path / "request.json", tmp_path / "answer.json"
+    path.write_text('{"a": 1}', "utf-8")
+    file.write_text('{"b": 2}', "utf-8")
 
     def check(request: Any, answer: Any) -> dict[str, Any]:
         assert (request, answer) == ({"a": 1}, {"b": 2})
         return {"claims": _CLAIMS, "not_covered": ["/answer/x"], "checked": 3, "leaves": 4, "verdict": verdict}
 
-    assert part("claims").main(check, "usage", [str(asked), str(given)]) == code
+    assert part("claims").main(check, "usage", [str(path), str(file)]) == code
     assert capsys.readouterr().out.splitlines() == [
         "objective          held           1.3e-09  /answer/certificate/objective",
         "lower_bound        not covered             /answer/certificate/lower_bound",
@@ -52,9 +52,9 @@ def test_what_is_no_json_is_named(text: str, message: str, tmp_path: Path, capsy
     bad = tmp_path / "bad.json"
     bad.write_bytes(text.encode("utf-8", "surrogatepass"))
     assert part("claims").main(lambda *_: {}, None, [str(bad), str(bad)]) == 2
-    told = capsys.readouterr()
-    assert told.out == ""
-    assert message in told.err
+    value = capsys.readouterr()
+    assert value.out == ""
+    assert message in value.err
     assert part("claims").main(lambda *_: {}, None, [str(tmp_path / "none.json")] * 2) == 2
 
 
@@ -75,11 +75,11 @@ def test_no_more_is_looked_at_than_is_allowed() -> None:
     assert checker().verify(body, rows, most=17)["checked"] == 0
     with pytest.raises(checker().Unreadable, match="17 of 16 numbers and texts"):
         checker().verify(body, rows, most=16)
-    one = records()["sum"]
-    leaves = _places(one["request"]) + _places(one["answer"])
-    assert checker().verify(one["request"], one["answer"], most=leaves)["verdict"] == "held"
+    actual_sum = records()["sum"]
+    leaves = _places(actual_sum["request"]) + _places(actual_sum["answer"])
+    assert checker().verify(actual_sum["request"], actual_sum["answer"], most=leaves)["verdict"] == "held"
     with pytest.raises(checker().Unreadable, match=f"{leaves} of {leaves - 1} numbers"):
-        checker().verify(one["request"], one["answer"], most=leaves - 1)
+        checker().verify(actual_sum["request"], actual_sum["answer"], most=leaves - 1)
 
 
 def _places(value: Any) -> int:

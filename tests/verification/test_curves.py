@@ -24,7 +24,7 @@ def part(name: str) -> ModuleType:
 @pytest.mark.parametrize("ratio", [0.0, 0.01, 0.2, 0.5, 0.9])
 def test_harmonics_are_those_of_the_crank_gear(ratio: float) -> None:
     """Analytic: the acceleration of the piston, and the force of the rod on the crank."""
-    curve = part("harmonics").Curve({k: complex(each) for k, each in part("harmonics").rod(ratio).items()})
+    curve = part("harmonics").Curve({k: complex(value) for k, value in part("harmonics").rod(ratio).items()})
     for angle in np.linspace(0.0, 6.0, 13):
         cosine, sine = np.cos(angle), np.sin(angle)
         root = np.sqrt(1 - (ratio * sine) ** 2)
@@ -41,15 +41,15 @@ _VECTORS = st.dictionaries(
 def test_a_peak_is_enclosed(harmonics: dict[int, complex], scalar: bool) -> None:
     """Independent: the curve at many angles."""
     curve = part("harmonics").Curve(harmonics, scalar)
-    found = curve.peak()
-    assert found.high <= found.low * (1 + 1e-9) + 1e-12 * curve.size
+    peak = curve.peak()
+    assert peak.high <= peak.low * (1 + 1e-9) + 1e-12 * curve.size
     angles = np.linspace(0.0, 2 * np.pi, 2_000)
-    values = sum(each * np.exp(1j * k * angles) for k, each in harmonics.items())
+    values = sum(harmonic * np.exp(1j * k * angles) for k, harmonic in harmonics.items())
     lengths = np.abs(np.real(values) if scalar else values)
-    assert np.max(lengths) <= found.high + 1e-12 * curve.size
+    assert np.max(lengths) <= peak.high + 1e-12 * curve.size
     # between two of them the length rises by no more than the curve moves
-    steepest = sum(abs(k * each) for k, each in harmonics.items())
-    assert found.low <= np.max(lengths) + steepest * np.pi / 1_999 + 1e-12 * curve.size
+    steepest = sum(abs(k * harmonic) for k, harmonic in harmonics.items())
+    assert peak.low <= np.max(lengths) + steepest * np.pi / 1_999 + 1e-12 * curve.size
 
 
 @pytest.mark.parametrize("continuous", [False, True])
@@ -60,10 +60,10 @@ def test_bearings_carry_what_the_service_has_them_carry(continuous: bool, count:
     places = np.sort(rng.uniform(-1, 1, count))
     loads = np.append(rng.uniform(-1.5, 1.5, 8), places)
     influence = continuous_beam_influence if continuous else simple_spans_influence
-    spans = part("spans").Spans([Fraction(one) for one in places], continuous)
-    found = [[float(share) for share in spans.shares(Fraction(one))] for one in loads]
+    spans = part("spans").Spans([Fraction(place) for place in places], continuous)
+    shares = [[float(share) for share in spans.shares(Fraction(value))] for value in loads]
     # lengths of spans may differ by far
-    np.testing.assert_allclose(found, influence(places, loads).T, atol=1e-9)
+    np.testing.assert_allclose(shares, influence(places, loads).T, atol=1e-9)
 
 
 @given(st.lists(st.complex_numbers(max_magnitude=10, allow_nan=False), min_size=2, max_size=4, unique=True))
@@ -71,26 +71,26 @@ def test_the_smallest_circle_around_a_few_points(points: list[complex]) -> None:
     """Independent: the circle of the optimizer."""
     radius, middle, _ = part("circle").around(points)
     assert radius == pytest.approx(smallest_circle(np.array(points)).radius, rel=1e-6, abs=1e-9)
-    assert max(abs(one - middle) for one in points) == pytest.approx(radius, rel=1e-6, abs=1e-9)
+    assert max(abs(point - middle) for point in points) == pytest.approx(radius, rel=1e-6, abs=1e-9)
 
 
 @given(_VECTORS)
 def test_no_middle_is_nearer_to_a_curve_than_its_circle(harmonics: dict[int, complex]) -> None:
     curve = part("harmonics").Curve(harmonics)
-    found = part("circle").smallest(curve)
-    if found is not None:
-        assert found.low <= found.high <= found.low * (1 + 1e-7) + 1e-11 * curve.size
+    minimum = part("circle").smallest(curve)
+    if minimum is not None:
+        assert minimum.low <= minimum.high <= minimum.low * (1 + 1e-7) + 1e-11 * curve.size
         for way in (1, 1j, -1, -1j):
-            moved = curve.moved(-found.middle - way * 0.01 * curve.size).peak()
-            assert moved.high >= found.low * (1 - 1e-9)
+            moved = curve.moved(-minimum.middle - way * 0.01 * curve.size).peak()
+            assert moved.high >= minimum.low * (1 - 1e-9)
 
 
 @pytest.mark.parametrize("depth", [1e-1, 1e-2, 1e-3])
 def test_a_steep_curve_is_integrated_in_halves_of_halves(depth: float) -> None:
     """Analytic: 1 / (x + d) from 0 to 1 is the logarithm of 1 + 1 / d; e^{jx} / (x + d) by scipy."""
     exact = float(np.log1p(1.0 / depth))
-    found = part("pistons").integral(lambda x: 1.0 / (x + depth), 0.0, 1.0, exact)
-    assert found == pytest.approx(exact, rel=1e-12)
+    integral = part("pistons").integral(lambda x: 1.0 / (x + depth), 0.0, 1.0, exact)
+    assert integral == pytest.approx(exact, rel=1e-12)
     curve = SimpleNamespace(value=lambda x, within: complex(np.exp(1j * x)) / (x + depth) * within)
     whole, square = part("pressed")._integrals(curve, 0.0, 1.0, 2.0, 1.0)
     sides = [quad(lambda x, f=f: 2.0 * f(x) / (x + depth), 0.0, 1.0, epsabs=1e-13)[0] for f in (np.cos, np.sin)]
@@ -113,6 +113,6 @@ def test_what_rounds_a_weighed_peak_is_all_that_may_cancel_in_it() -> None:
     """Analytic: |3 + 4 j| and 2, seen along x and y by their weights of 1 and 0.3, at half a newton metre each."""
     real, turned = part("numbers").real, part("numbers").J
     responses = {"moment": (real(3.0) + turned * real(4.0), real(2.0))}
-    seen, weighed = SimpleNamespace(x=real(1.0), y=real(0.3)), SimpleNamespace(weights={"moment": real(0.5)})
-    size = part("cuts").Part.size(weighed, seen, responses, "moment")
+    namespace, weighed = SimpleNamespace(x=real(1.0), y=real(0.3)), SimpleNamespace(weights={"moment": real(0.5)})
+    size = part("cuts").Part.size(weighed, namespace, responses, "moment")
     assert float(size) == pytest.approx(7.0 * 1.3 * 0.5, rel=1e-15)

@@ -35,18 +35,21 @@ _OUTPUTS = (
 
 @pytest.mark.parametrize("name", night.part(4, ["dynamics", "four strokes", "gas", "indicated pressure"]))
 def test_every_claim_is_held(name: str) -> None:
-    found = checker().verify(*pair(name))
-    assert (found["verdict"], found["not_covered"]) == ("held", [])
+    verdict = checker().verify(*pair(name))
+    assert (verdict["verdict"], verdict["not_covered"]) == ("held", [])
 
 
 def _refuted(request: Any, answer: Any, output: str) -> bool:
     """Whether a claim of one output is broken, without what else the answer holds."""
     place = part("numbers").Place
-    asked, given = place(request, "request"), place({**answer, **dict.fromkeys(_OUTPUTS)} | {output: answer[output]})
-    machine = part("machine").Machine(asked / "machine", asked / "objective", place(None), place(None))
+    position, actual_place = (
+        place(request, "request"),
+        place({**answer, **dict.fromkeys(_OUTPUTS)} | {output: answer[output]}),
+    )
+    machine = part("machine").Machine(position / "machine", position / "objective", place(None), place(None))
     curves = part("bearings").curves if output == "roll" else part("outputs").dynamics
-    alone = place({**given.value, "residual": {}, "main_bearings": None, "internal_moment": None}, "answer")
-    claims = list(curves(asked, machine, alone, part("answer").NOTHING_FITTED if output == "roll" else None))
+    alone = place({**actual_place.value, "residual": {}, "main_bearings": None, "internal_moment": None}, "answer")
+    claims = list(curves(position, machine, alone, part("answer").NOTHING_FITTED if output == "roll" else None))
     assert claims
     return any(room is not None and room.high < 0 for _, _, room, _ in claims)
 
@@ -57,9 +60,9 @@ def test_samples_and_peaks_that_are_falsified_are_broken(name: str, some: int) -
     """Of every output some numbers, whatever they are."""
     request, answer = pair(name)
     for output in _OUTPUTS:
-        shown = answer[output]
-        assert not shown or not _refuted(request, answer, output)
-        places = [(output, *path) for path in numbers(shown)] if shown else []
+        number = answer[output]
+        assert not number or not _refuted(request, answer, output)
+        places = [(output, *path) for path in numbers(number)] if number else []
         for path in places[:: max(1, len(places) // some)]:
             if path[-1] in ("mean_torque_error_Nm", "fluctuation_energy_error_J"):
                 continue
@@ -74,8 +77,8 @@ def test_samples_and_peaks_that_are_falsified_are_broken(name: str, some: int) -
 def test_nothing_that_is_sent_as_gas_raises(data: st.DataObject) -> None:
     """Any JSON in any place of throws, friction and flywheel is judged, or refused by name."""
     request, answer = pair("four strokes")
-    shown = {**dict.fromkeys(_OUTPUTS), "main_bearings": None, "internal_moment": None}
-    answer = {**answer, **shown, **{name: answer[name] for name in ("gas", "torque", "flywheel", "loads")}}
+    fields = {**dict.fromkeys(_OUTPUTS), "main_bearings": None, "internal_moment": None}
+    answer = {**answer, **fields, **{name: answer[name] for name in ("gas", "torque", "flywheel", "loads")}}
     request["objective"] = {}
     places = [path for path in paths(request) if {"throws", "friction", "flywheel"} & {*path} and len(path) > 2]
     for path, value in data.draw(st.lists(st.tuples(st.sampled_from(places), JSON), min_size=1, max_size=2)):
@@ -87,7 +90,7 @@ def test_nothing_that_is_sent_as_gas_raises(data: st.DataObject) -> None:
 def test_the_moment_inside_the_shaft_is_held(field: str) -> None:
     request, answer = pair("dynamics")
     answer["internal_moment"][field] = answer["internal_moment"][field] * 1.001 + 0.1
-    assert any(one.startswith("internal_moment") for one in broken(request, answer))
+    assert any(claim.startswith("internal_moment") for claim in broken(request, answer))
 
 
 def _cycle(head: bool, ratio: float, clearance: float) -> Any:
@@ -97,10 +100,10 @@ def _cycle(head: bool, ratio: float, clearance: float) -> Any:
 @cache
 def _pistons(name: str) -> Any:
     numbers_, machine = part("numbers"), part("machine")
-    asked = numbers_.Place(pair(name)[0], "request")
+    place = numbers_.Place(pair(name)[0], "request")
     nothing = numbers_.Place(None)
-    built = machine.Machine(asked / "machine", asked / "objective", nothing, nothing)
-    return part("pistons").Pistons(asked / "machine", built, list(part("pistons").rows_of(asked / "machine")))
+    built = machine.Machine(place / "machine", place / "objective", nothing, nothing)
+    return part("pistons").Pistons(place / "machine", built, list(part("pistons").rows_of(place / "machine")))
 
 
 @given(st.booleans(), st.floats(1.0, 20.0), st.floats(0.01, 0.2), st.floats(0, 6.28), st.floats(0, 0.9))
@@ -124,7 +127,7 @@ def test_a_polytrope_keeps_p_times_volume_to_its_exponent(
 def test_work_and_valves_of_a_cycle(head: bool, ratio: float) -> None:
     """Analytic: of four processes, n / (n - 1) (p_2 V_2 - p_1 V_1) of a polytrope with what is let in or out."""
     cycle, row = _cycle(head, ratio, 0.08), _pistons("dynamics").rows[0]
-    row.radius, kept = 0.1, (row.radius, row.chambers)
+    row.radius, entry = 0.1, (row.radius, row.chambers)
     row.chambers = [cycle]
 
     def technical(exponent: float, pressure: float, volume: float) -> float:
@@ -137,7 +140,7 @@ def test_work_and_valves_of_a_cycle(head: bool, ratio: float) -> None:
         there = part("gas").motion(row.ratio, angle)
         assert cycle.at(there, angle < pi) == pytest.approx(pressure, rel=1e-9)
         assert cycle.at(part("gas").motion(row.ratio, angle - 1e-3), angle < pi) != pressure
-    row.radius, row.chambers = kept
+    row.radius, row.chambers = entry
 
 
 @settings(max_examples=20)
@@ -150,13 +153,13 @@ def test_a_peak_of_pressed_rows_is_enclosed(name: str, data: st.DataObject) -> N
     curve = pressed.Pressed(pistons, reading, [(k, data.draw(weight)) for k in range(len(pistons.rows))])
     curve = curve.moved(data.draw(st.floats(-1e4, 1e4)))
     sign = 0 if reading == "shaft" else data.draw(st.sampled_from([-1, 0, 1]))
-    found = curve.peak(sign=sign)
-    assert found.high <= found.low + 1e-9 * abs(found.low) + 1e-11 * curve.size
+    peak = curve.peak(sign=sign)
+    assert peak.high <= peak.low + 1e-9 * abs(peak.low) + 1e-11 * curve.size
     values = [curve.value(angle) for angle in np.linspace(0.0, pistons.period, 500)]
-    heights = [sign * one.real if sign else abs(one) for one in values]
-    assert max(heights) <= found.high + 1e-11 * curve.size
-    there = [sign * one.real if sign else abs(one) for one in curve.sides(found.angle)]
-    assert max(there) == pytest.approx(found.low, rel=1e-6, abs=1e-6 * curve.size)
+    heights = [sign * entry.real if sign else abs(entry) for entry in values]
+    assert max(heights) <= peak.high + 1e-11 * curve.size
+    there = [sign * side.real if sign else abs(side) for side in curve.sides(peak.angle)]
+    assert max(there) == pytest.approx(peak.low, rel=1e-6, abs=1e-6 * curve.size)
 
 
 def test_mean_and_root_mean_square_by_a_quadrature() -> None:
@@ -202,6 +205,6 @@ def test_sizes_of_what_a_rod_makes_of_a_force(reading: str, ratio: float) -> Non
     pressed, count, frame = part("pressed"), 1024, -0.3
     values = [pressed.READINGS[reading](pressed.motion(ratio, 2 * pi * n / count)) for n in range(count)]
     sizes, orders = np.abs(np.fft.fft(values)) / count, np.fft.fftfreq(count, 1 / count)
-    for power, found in enumerate(pressed._sizes(reading, ratio, frame)):
-        assert found == pytest.approx(np.sum(np.abs(orders - frame) ** power * sizes), rel=2e-4)
-        assert found > np.sum(np.abs(orders - frame) ** power * sizes)
+    for power, size in enumerate(pressed._sizes(reading, ratio, frame)):
+        assert size == pytest.approx(np.sum(np.abs(orders - frame) ** power * sizes), rel=2e-4)
+        assert size > np.sum(np.abs(orders - frame) ** power * sizes)

@@ -48,12 +48,12 @@ def test_a_figure_lies_in_its_range(figure: float) -> None:
     assert near("a", place(None), around)[2] is None
 
 
-@pytest.mark.parametrize(("value", "other", "alike"), [
+@pytest.mark.parametrize(("value", "number", "alike"), [
     ("a", "a", True), ("a", "b", False), (None, None, True), (None, 0, False), (0, None, False), (2, 2.0, True),
     (True, True, True), ([2], 2, False), ({}, None, False), ([None], [None], False), (1.5, 1.4, False),
 ])  # fmt: skip
-def test_a_text_or_a_count_is_the_same(value: Any, other: Any, alike: bool) -> None:
-    room = part("claims").same("a", place(value), other)[2]
+def test_a_text_or_a_count_is_the_same(value: Any, number: Any, alike: bool) -> None:
+    room = part("claims").same("a", place(value), number)[2]
     assert float(room) == (1.0 if alike else -1.0)
 
 
@@ -104,8 +104,8 @@ def test_a_largest_value_has_its_sign(sign: int) -> None:
     dynamics, peak = part("dynamics"), part("harmonics").Peak(40.0, 50.0, 0.0)
 
     def fits(value: float, ends: list[float], least: float = -math.inf) -> bool:
-        shown = place({"p_N": sign * value, "p_bracket_N": [sign * each for each in ends[::sign]]})
-        return held(dynamics.signed("a", shown, "p", peak, 0.5, sign, least))
+        position = place({"p_N": sign * value, "p_bracket_N": [sign * end for end in ends[::sign]]})
+        return held(dynamics.signed("a", position, "p", peak, 0.5, sign, least))
 
     wide = 40.0 * 2e-9 + 0.5
     assert fits(40.0 - wide + 1e-9, [40.0 - wide + 1e-9, 39.5 + 1e-9])
@@ -117,8 +117,8 @@ def test_a_largest_value_has_its_sign(sign: int) -> None:
     assert not fits(45.0, [45.0, 50.0 + wide + 1e-9])
     assert fits(60.0, [60.0, 60.0], 60.0)
     assert not fits(45.0, [45.0, 45.0], 60.0)
-    shown = place({"p_N": 45.0 * sign, "p_bracket_N": [45.0 * sign] * 3})
-    assert not held(dynamics.signed("a", shown, "p", peak, 0.5, sign))
+    actual_place = place({"p_N": 45.0 * sign, "p_bracket_N": [45.0 * sign] * 3})
+    assert not held(dynamics.signed("a", actual_place, "p", peak, 0.5, sign))
 
 
 @pytest.mark.parametrize(("step", "turns", "count"), [(90.0, 1, 4), (90.0, 2, 8), (90.0, 2, 4), (7.0, 1, 51)])
@@ -131,7 +131,7 @@ def test_samples_are_a_step_apart(step: float, turns: int, count: int) -> None:
         for sign in (1, -1):
             for share, fits in ((_INSIDE, True), (_BEYOND, False)):
                 off = sign * share * 1e-9 * (k + 1) * step
-                moved = [one + off * (n == k) for n, one in enumerate(angles)]
+                moved = [angle + off * (n == k) for n, angle in enumerate(angles)]
                 assert held(bearings.sampled("a", place(moved), request, turns)) == fits
     assert held(bearings.sampled("a", place([float(n) for n in range(360)]), place({}, "request")))
 
@@ -151,8 +151,8 @@ def test_a_peak_is_at_its_angle(sense: int, turns: int) -> None:
     far = math.degrees(math.sqrt(1.005e-8 / 0.6))
     for share, fits in ((0.99, True), (1.01, False)):
         for side in (1, -1):
-            found = bearings.where("a", place(there + side * share * far), loads, curve, peak)
-            assert (found[2].high >= 0) == fits
+            indices = bearings.where("a", place(there + side * share * far), loads, curve, peak)
+            assert (indices[2].high >= 0) == fits
     again = bearings.where("a", place(there + 360.0), loads, curve, peak)[2]
     assert (again.high >= 0) == (turns == 2)
     assert bearings.where("a", place(there - 360.0), loads, curve, peak)[2].high < 0
@@ -175,18 +175,18 @@ def test_where_a_curve_changes_its_sign() -> None:
 def test_a_load_is_at_the_angle_that_is_told(sign: int, value: float) -> None:
     """Analytic: a height is the sign times a value, the larger of both sides; up to 1e9 of it below the peak."""
     rods, peak = part("rods"), part("harmonics").Peak(5.0, 6.0, 0.0)
-    asked: list[float] = []
+    angles: list[float] = []
 
     def sides(angle: float) -> list[complex]:
-        asked.append(angle)
+        angles.append(angle)
         return [complex(value), complex(value / 2.0)]
 
     for sense in (1, -1):
         curve = Fields(pistons=Fields(period=4 * math.pi, sense=sense), sides=sides)
-        found = rods.where("a", place(90.0), curve, peak, 0.25, sign)
-        assert asked.pop() == pytest.approx(sense * math.pi / 2)
-        assert float(found[2]) == pytest.approx(0.25 + 1e-8, rel=1e-12)
-        assert float(found[3]) == 6.25
+        indices = rods.where("a", place(90.0), curve, peak, 0.25, sign)
+        assert angles.pop() == pytest.approx(sense * math.pi / 2)
+        assert float(indices[2]) == pytest.approx(0.25 + 1e-8, rel=1e-12)
+        assert float(indices[3]) == 6.25
         higher = rods.where("a", place(90.0), curve, part("harmonics").Peak(5.2, 6.0, 0.0), 0.25, sign)
         assert float(higher[2]) == pytest.approx(0.05, rel=1e-6)
         for degrees, fits in ((0.0, True), (720.0, True), (720.1, False), (-0.1, False)):
@@ -206,34 +206,37 @@ def test_the_largest_room_is_told_as_a_share() -> None:
 
 
 def _judged(*claims: tuple[str, Any, Any, Any]) -> dict[str, Any]:
-    found: dict[str, Any] = part("claims").judged(iter(claims), place({"a": 1.0, "b": {"c": 2.0, "d": "text"}}))
-    return found
+    verdict: dict[str, Any] = part("claims").judged(iter(claims), place({"a": 1.0, "b": {"c": 2.0, "d": "text"}}))
+    return verdict
 
 
 def test_the_worst_of_a_kind_is_shown() -> None:
     a, c, d = (place(1.0, "answer", *path) for path in (("a",), ("b", "c"), ("b", "d")))
-    one = real(1.0)
-    found = _judged(("x", a, real(2.0), one), ("x", c, real(0.5), one), ("x", d, real(0.7), one))
-    assert (found["verdict"], found["leaves"], found["checked"], found["not_covered"]) == ("held", 3, 3, [])
-    assert found["claims"] == [{"claim": "x", "verdict": "held", "margin": 0.5, "where": "/answer/b/c"}]
-    found = _judged(("x", a, None, one), ("x", c, real(0.5), one), ("y", d, real(0.0), one))
-    assert [each["verdict"] for each in found["claims"]] == ["not covered", "held"]
-    assert (found["verdict"], found["checked"], found["not_covered"]) == ("not covered", 2, ["/answer/a"])
-    found = _judged(("x", a, real(-1e-9), one), ("x", c, None, one), ("x", d, real(-1e-8), one))
-    assert [(each["verdict"], each["margin"], each["where"]) for each in found["claims"]] == [
+    real_part = real(1.0)
+    verdict = _judged(("x", a, real(2.0), real_part), ("x", c, real(0.5), real_part), ("x", d, real(0.7), real_part))
+    assert (verdict["verdict"], verdict["leaves"], verdict["checked"], verdict["not_covered"]) == ("held", 3, 3, [])
+    assert verdict["claims"] == [{"claim": "x", "verdict": "held", "margin": 0.5, "where": "/answer/b/c"}]
+    judgement = _judged(("x", a, None, real_part), ("x", c, real(0.5), real_part), ("y", d, real(0.0), real_part))
+    assert [statement["verdict"] for statement in judgement["claims"]] == ["not covered", "held"]
+    assert (judgement["verdict"], judgement["checked"], judgement["not_covered"]) == ("not covered", 2, ["/answer/a"])
+    finding = _judged(("x", a, real(-1e-9), real_part), ("x", c, None, real_part), ("x", d, real(-1e-8), real_part))
+    assert [(statement["verdict"], statement["margin"], statement["where"]) for statement in finding["claims"]] == [
         ("broken", -1e-8, "/answer/b/d")
     ]
-    assert found["verdict"] == "broken"
+    assert finding["verdict"] == "broken"
     # all held, but not all looked at
-    assert _judged(("x", a, real(1.0), one))["not_covered"] == ["/answer/b"]
-    assert _judged(("x", a, real(1.0), one), ("x", c, one, one))["not_covered"] == ["/answer/b/d"]
+    assert _judged(("x", a, real(1.0), real_part))["not_covered"] == ["/answer/b"]
+    assert _judged(("x", a, real(1.0), real_part), ("x", c, real_part, real_part))["not_covered"] == ["/answer/b/d"]
     evidence = part("claims").EVIDENCE
-    found = _judged(("x", a, one, one), (evidence, place({}, "answer", "b"), None, one))
-    assert (found["verdict"], found["leaves"], found["checked"]) == ("held", 1, 1)
-    nothing = ("x", place(None, "answer", "z"), None, one)
-    assert [each["claim"] for each in _judged(nothing, ("y", a, one, one))["claims"]] == ["y"]
-    outside = ("x", place(None, "request", "z"), None, one)
-    assert [each["claim"] for each in _judged(outside, ("y", a, one, one))["claims"]] == ["x", "y"]
+    claim = _judged(("x", a, real_part, real_part), (evidence, place({}, "answer", "b"), None, real_part))
+    assert (claim["verdict"], claim["leaves"], claim["checked"]) == ("held", 1, 1)
+    nothing = ("x", place(None, "answer", "z"), None, real_part)
+    assert [statement["claim"] for statement in _judged(nothing, ("y", a, real_part, real_part))["claims"]] == ["y"]
+    outside = ("x", place(None, "request", "z"), None, real_part)
+    assert [statement["claim"] for statement in _judged(outside, ("y", a, real_part, real_part))["claims"]] == [
+        "x",
+        "y",
+    ]
 
 
 @pytest.mark.parametrize("error", [ZeroDivisionError, OverflowError, ValueError])
@@ -242,8 +245,8 @@ def test_what_doubles_do_not_hold_is_not_covered(error: type[Exception]) -> None
         yield "x", place(1.0), real(1.0), real(1.0)
         raise error
 
-    found = list(part("claims").covered(claims()))
-    assert [(each[0], each[2] is None, each[1].path) for each in found[1:]] == [("request", True, ("request",))]
+    values = list(part("claims").covered(claims()))
+    assert [(value[0], value[2] is None, value[1].path) for value in values[1:]] == [("request", True, ("request",))]
 
     def unreadable() -> Any:
         yield "x", place(1.0), real(1.0), real(1.0)
@@ -256,13 +259,13 @@ def test_what_doubles_do_not_hold_is_not_covered(error: type[Exception]) -> None
 def test_two_hundred_names_are_listed() -> None:
     leaves = part("leaves")
     answer = place({f"n{k}": [1.0, None, {"x": k}] for k in range(250)})
-    found = leaves.account(answer, set(), set())
-    assert (found["leaves"], found["checked"], len(found["not_covered"])) == (500, 0, 200)
-    assert found["not_covered"][0] == "/answer/n0"
-    looked = {("answer", "n0", 0), ("answer", "n1", 2, "x")}
-    found = leaves.account(answer, looked, {("answer", "n2")})
-    assert (found["leaves"], found["checked"]) == (498, 2)
-    assert found["not_covered"][:3] == ["/answer/n0/*", "/answer/n1/*", "/answer/n3"]
+    account = leaves.account(answer, set(), set())
+    assert (account["leaves"], account["checked"], len(account["not_covered"])) == (500, 0, 200)
+    assert account["not_covered"][0] == "/answer/n0"
+    names = {("answer", "n0", 0), ("answer", "n1", 2, "x")}
+    verdict = leaves.account(answer, names, {("answer", "n2")})
+    assert (verdict["leaves"], verdict["checked"]) == (498, 2)
+    assert verdict["not_covered"][:3] == ["/answer/n0/*", "/answer/n1/*", "/answer/n3"]
     assert leaves.leaves(json.loads('{"a": [1, 2, {"b": null}], "c": "d"}')) == 7
 
 
@@ -277,8 +280,8 @@ def test_the_bending_of_many_planes_is_not_covered(planes: int, rows: int, order
     loads = Fields(pistons=harmonics, planes=[0.0] * planes, turn=turn, factor=lambda *_: 1.0, added=lambda *_: 2j)
     curve = part("loads").Loads._curve
     if right:
-        found = curve(loads, "bending:0.0")
-        assert (found.weights, found.beside) == ([(k, 1j) for k in range(rows)], {0: 2j})
+        actual_curve = curve(loads, "bending:0.0")
+        assert (actual_curve.weights, actual_curve.beside) == ([(k, 1j) for k in range(rows)], {0: 2j})
     else:
         with pytest.raises(part("numbers").NotCovered):
             curve(loads, "bending:0.0")

@@ -15,9 +15,9 @@ _SEED = 1
 
 def test_questions_of_every_kind_are_drawn() -> None:
     """Of twelve numbers two are sweeps of machines, four sweeps of pairs, and so on."""
-    asked = list(itertools.islice(questions(_SEED), 40))
-    assert {one.kind for one in asked} == KINDS.keys()
-    assert len({one.name for one in asked}) == len(asked)
+    actual_questions = list(itertools.islice(questions(_SEED), 40))
+    assert {actual_question.kind for actual_question in actual_questions} == KINDS.keys()
+    assert len({actual_question.name for actual_question in actual_questions}) == len(actual_questions)
 
 
 @pytest.mark.parametrize("kind", but({"sweep", "match"}, KINDS))
@@ -25,16 +25,16 @@ def test_genuine_answers_are_not_broken(kind: str) -> None:
     """By night python -m tests.verification.genuine draws a thousand."""
     verdicts, faults = run(1, _SEED, only=(kind,))
     assert not faults
-    assert sum(verdicts[f"{kind} {one}"] for one in ("held", "not covered")) == 1
+    assert sum(verdicts[f"{kind} {text}"] for text in ("held", "not covered")) == 1
 
 
 def test_a_row_that_is_broken_is_a_fault(monkeypatch: pytest.MonkeyPatch) -> None:
-    made, answered = KINDS["sweep"]
+    function, answered = KINDS["sweep"]
 
-    def falsified(sent: Any) -> Any:
-        return [row | {"force_peak_N": 1.01 * (row["force_peak_N"] or 0.0) + 1.0} for row in answered(sent)]
+    def falsified(value: Any) -> Any:
+        return [row | {"force_peak_N": 1.01 * (row["force_peak_N"] or 0.0) + 1.0} for row in answered(value)]
 
-    monkeypatch.setitem(genuine.KINDS, "sweep", Kind(made, falsified))
+    monkeypatch.setitem(genuine.KINDS, "sweep", Kind(function, falsified))
     verdicts, faults = run(1, _SEED, only=("sweep",))
     assert verdicts == {"sweep broken": 1}
     assert any("force_peak_N" in fault for fault in faults)

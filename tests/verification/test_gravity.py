@@ -52,9 +52,9 @@ def _pair(name: str) -> tuple[Any, Any]:
 @pytest.mark.parametrize("name", night.part(2, _KINDS))
 def test_loads_are_held_entirely(name: str) -> None:
     request, answer = _pair(name)
-    found = checker().verify(request, answer)
+    verdict = checker().verify(request, answer)
     assert not broken(request, answer)
-    assert not [where for where in found["not_covered"] if "loads" in where]
+    assert not [where for where in verdict["not_covered"] if "loads" in where]
 
 
 @pytest.mark.parametrize("name", night.part(4, _KINDS))
@@ -109,6 +109,6 @@ def test_what_is_upright_presses_the_bearings_alone() -> None:
 def test_weights_of_any_direction_are_held(gravity: float, rotation: str, base: str) -> None:
     request = _body(base, (), gravity, rotation=rotation)
     answer = answered(request)
-    found = checker().verify(request, answer)
+    verdict = checker().verify(request, answer)
     assert not broken(request, answer)
-    assert not [where for where in found["not_covered"] if "loads" in where]
+    assert not [where for where in verdict["not_covered"] if "loads" in where]

@@ -21,10 +21,10 @@ KINDS = ("sum", "infeasible", "plates, sectors", "balance quality", "scenarios",
 def test_the_form_is_that_of_the_models() -> None:
     """Independent: the models, which the checker does not import."""
     checker()
-    told = sys.modules["verify_form"]
+    module = sys.modules["verify_form"]
     for path, fields in all_fields().items():
         parts = tuple(part for part in path.split("/") if part not in ("", "*"))
-        assert told.names(parts) == fields, path
+        assert module.names(parts) == fields, path
 
 
 @pytest.mark.parametrize("name", KINDS)
@@ -53,9 +53,9 @@ def test_a_counterweight_twice_or_not_at_all_is_broken(name: str) -> None:
     there = answer if answer["counterweights"] else answer["infeasibility"]["closest"]
     first = there["counterweights"][0]
     for wrong in ([first, *there["counterweights"]], there["counterweights"][1:], there["counterweights"][::-1]):
-        kept, there["counterweights"] = there["counterweights"], wrong
+        counterweights, there["counterweights"] = there["counterweights"], wrong
         assert is_broken(request, answer)
-        there["counterweights"] = kept
+        there["counterweights"] = counterweights
 
 
 @pytest.mark.parametrize("name", ["hodograph", "orders", "foundation_loads"])
@@ -68,39 +68,39 @@ def test_an_output_that_was_requested_is_there(name: str) -> None:
 def test_what_is_added_is_named() -> None:
     request, answer = pair("sum")
     answer["savings"] = {"per_year": 1000.0}
-    found = checker().verify(request, answer)
-    assert found["not_covered"] == ["/answer/savings"]
-    assert (found["verdict"], found["leaves"] - found["checked"]) == ("not covered", 1)
+    verdict = checker().verify(request, answer)
+    assert verdict["not_covered"] == ["/answer/savings"]
+    assert (verdict["verdict"], verdict["leaves"] - verdict["checked"]) == ("not covered", 1)
 
 
 @pytest.mark.parametrize("name", KINDS)
 def test_all_leaves_are_counted(name: str) -> None:
     """Independent: every leaf below a name that is not covered, and all others."""
     request, answer = pair(name)
-    found = checker().verify(request, answer)
+    verdict = checker().verify(request, answer)
     checker()
     silent = sys.modules["verify_leaves"].REMARKS
-    named = [one.split("/")[2:] for one in found["not_covered"]]
+    named = [entry.split("/")[2:] for entry in verdict["not_covered"]]
     missed = counted = 0
     for path in _leaves(answer):
         if silent & {*path} or {"multipliers", "nominal_multipliers", "implied_max_mass_kg"} & {*path}:
             continue
         counted += 1
-        missed += any(["*" if part.isdecimal() else part for part in path[: len(one)]] == one for one in named)
-    assert (found["leaves"], found["checked"]) == (counted, counted - missed) or "multipliers" in str(named)
-    assert found["verdict"] == ("held" if missed == 0 and not named else "not covered")
+        missed += any(["*" if part.isdecimal() else part for part in path[: len(value)]] == value for value in named)
+    assert (verdict["leaves"], verdict["checked"]) == (counted, counted - missed) or "multipliers" in str(named)
+    assert verdict["verdict"] == ("held" if missed == 0 and not named else "not covered")
 
 
 def _leaves(value: Any, path: tuple[str, ...] = ()) -> list[tuple[str, ...]]:
     if isinstance(value, dict | list):
         items = value.items() if isinstance(value, dict) else enumerate(value)
-        return [leaf for key, one in items for leaf in _leaves(one, (*path, str(key)))]
+        return [leaf for key, value in items for leaf in _leaves(value, (*path, str(key)))]
     return [] if value is None else [path]
 
 
 def test_the_kinds_hold_as_they_are() -> None:
     for name in KINDS:
         request, answer = pair(name)
-        found = checker().verify(copy.deepcopy(request), json.loads(json.dumps(answer)))
-        assert found["verdict"] in ("held", "not covered"), (name, found["claims"])
+        verdict = checker().verify(copy.deepcopy(request), json.loads(json.dumps(answer)))
+        assert verdict["verdict"] in ("held", "not covered"), (name, verdict["claims"])
     assert len(names()) >= 26

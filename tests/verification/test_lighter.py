@@ -34,16 +34,18 @@ def lighter(value: Any, name: str = "") -> Any:
         return _lighter_prices(value) if isinstance(value, list) else value
     if isinstance(value, dict):
         inside = name if name.endswith("implied_max_mass_kg") else ""
-        return {key: lighter(each, inside or key) for key, each in value.items()}
+        return {key: lighter(value, inside or key) for key, value in value.items()}
     if isinstance(value, list):
-        return [lighter(each, name) for each in value]
+        return [lighter(value, name) for value in value]
     number = isinstance(value, int | float) and not isinstance(value, bool)
     return value * _LIGHTER if number and _PROPORTIONAL.search(name) else value
 
 
 def _lighter_prices(prices: list[Any]) -> list[Any]:
     """Those of angles are forces by the degree."""
-    return [each | {"value": each["value"] * (_LIGHTER if each["unit"].endswith("/deg") else 1.0)} for each in prices]
+    return [
+        price | {"value": price["value"] * (_LIGHTER if price["unit"].endswith("/deg") else 1.0)} for price in prices
+    ]
 
 
 @pytest.mark.parametrize("name", night.part(2, _NAMES[::4]))

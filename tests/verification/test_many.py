@@ -54,7 +54,7 @@ def swept(body: dict[str, Any]) -> list[dict[str, Any]]:
 
 
 def claims(request: Any, answer: Any) -> dict[str, str]:
-    return {one["claim"]: one["verdict"] for one in checker().verify(request, answer)["claims"]}
+    return {claim["claim"]: claim["verdict"] for claim in checker().verify(request, answer)["claims"]}
 
 
 @pytest.fixture(scope="module", params=FRONTS)
@@ -75,20 +75,20 @@ def test_a_front(front: tuple[dict[str, Any], dict[str, Any]]) -> None:
 
 def test_falsified_points_are_caught(front: tuple[dict[str, Any], dict[str, Any]]) -> None:
     body, answer = front
-    for one in (point for each in answer["fronts"] for point in each["points"]):
+    for position in (point for frontier in answer["fronts"] for point in frontier["points"]):
         for name in ("force_peak_N", "weighted_moment_peak_Nm", "total_mass_kg"):
-            right = one[name]
-            one[name] = right * (1 + 1e-6)
+            right = position[name]
+            position[name] = right * (1 + 1e-6)
             assert not right or is_broken(body, answer), name
-            one[name] = right
+            position[name] = right
 
 
 def test_a_front_without_its_proofs_is_not_covered() -> None:
     # nor is a bound of its masses false for want of a proof
     body = {**SINGLE["sum"], "points": 2}
     answer = json.loads(pareto(ParetoRequest.model_validate(body)).model_dump_json())
-    found = claims(body, answer)
-    assert (found["corner"], found["mass_lower_bound"]) == ("not covered", "not covered")
+    statements = claims(body, answer)
+    assert (statements["corner"], statements["mass_lower_bound"]) == ("not covered", "not covered")
     assert verdict(body, answer) == "not covered"
 
 
@@ -142,8 +142,8 @@ def test_rows_over_the_turn(features: tuple[str, ...], more: dict[str, Any]) -> 
 def test_what_multipliers_prove_of_rows_over_the_turn() -> None:
     body = {"base": body_of("twin", ("bearing weight",), 1.0), "axes": _SPEEDS, "multipliers": True}
     table = swept(body)
-    found = claims(body, table)
-    assert (found["lower_bound"], found["mass_lower_bound"], found["objective"]) == ("held",) * 3
+    bound = claims(body, table)
+    assert (bound["lower_bound"], bound["mass_lower_bound"], bound["objective"]) == ("held",) * 3
     for column in ("force_peak_N", "objective", "lower_bound", "total_mass_kg", "mass_kg.1a"):
         right = table[0][column]
         table[0][column] = right * 1.001
@@ -211,7 +211,7 @@ def test_the_bound_of_a_search_is_not_covered_in_a_row() -> None:
 def test_axes_through_lists_take_texts() -> None:
     """Regression: the unit of a mass in a list was sought in its number there, and the sweep could not be read."""
     base = body_of("twin", ("own masses",), 1.0)
-    place, web = next((n, one) for n, one in enumerate(base["machine"]["webs"]) if one.get("catalogue_masses_kg"))
+    place, web = next((n, plane) for n, plane in enumerate(base["machine"]["webs"]) if plane.get("catalogue_masses_kg"))
     path = f"/machine/webs/{place}/catalogue_masses_kg/{len(web['catalogue_masses_kg']) - 1}"
     body = {"base": base, "axes": [{"path": path, "values": ["20 lb", "9.5 kg", 11]}], "multipliers": True}
     table = swept(body)
@@ -239,7 +239,7 @@ def test_the_knee_of_a_front_is_the_number_of_a_point(factor: float) -> None:
     request, answer = pair("front")
     assert answer["fronts"][0]["knee"] > 0
     answer["fronts"][0]["knee"] *= factor
-    assert any(one.startswith("front") for one in broken(request, answer))
+    assert any(claim.startswith("front") for claim in broken(request, answer))
 
 
 @pytest.mark.parametrize("tolerances", [None, {"mass_relative": 0.02}])
@@ -260,4 +260,4 @@ def test_a_budget_of_a_front_that_nobody_asked_for_is_broken(budget: float) -> N
     """Regression: one of 0 kg was held."""
     request, answer = pair("front")
     answer["fronts"][0]["max_total_mass_kg"] = budget
-    assert any(one.startswith("max_total_mass") for one in broken(request, answer))
+    assert any(claim.startswith("max_total_mass") for claim in broken(request, answer))

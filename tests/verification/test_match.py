@@ -24,10 +24,10 @@ def files() -> tuple[Answer, Answer]:
 
 def test_a_genuine_assignment_is_held(files: tuple[Answer, Answer]) -> None:
     """Independent: all assignments are compared here, one after the other."""
-    found = checker().verify(*files)
-    assert found["verdict"] == "held"
+    verdict = checker().verify(*files)
+    assert verdict["verdict"] == "held"
     assert {"assignments", "rows", "objective", "lower_bound", "before", "after"} <= {
-        each["claim"] for each in found["claims"]
+        claim["claim"] for claim in verdict["claims"]
     }
 
 
@@ -37,18 +37,18 @@ def test_a_fixed_weight_is_on_its_web_whatever_is_listed() -> None:
     place = {"name": "w", "position_m": 0.1, "counterweight_radius_m": 0.2}
     design["webs"] = [place | {"fixed": {"mass_kg": 2.0, "angle_deg": 30.0}}]
     body = {"machine": design, "parts": parts(1, 4, 4)}
-    sent = MatchRequest.model_validate(body).model_dump(mode="json", by_alias=True)
+    fields = MatchRequest.model_validate(body).model_dump(mode="json", by_alias=True)
     answer = matched(body).model_dump(mode="json", by_alias=True)
-    assert checker().verify(sent, answer)["verdict"] == "held"
+    assert checker().verify(fields, answer)["verdict"] == "held"
     answer["counterweights"][0]["mass_kg"] = 2.1
-    assert checker().verify(sent, answer)["verdict"] == "broken"
+    assert checker().verify(fields, answer)["verdict"] == "broken"
 
 
 @pytest.mark.parametrize(("where", "field"), [("assignments", "throw"), ("rows", "throw")])
 def test_a_row_is_named_by_whole_numbers(files: tuple[Answer, Answer], where: str, field: str) -> None:
     """Regression: the fraction of a number was cut off."""
     request, answer = files[0], copy.deepcopy(files[1])
-    entry = next(each for each in answer[where] if each[field])
+    entry = next(value for value in answer[where] if value[field])
     entry[field] *= 1.001
     assert checker().verify(request, answer)["verdict"] == "broken"
 

@@ -93,15 +93,15 @@ def _pair(name: str) -> tuple[Any, Any]:
 
 @pytest.mark.parametrize("name", _REQUESTS)
 def test_every_number_of_genuine_loads_is_held(name: str) -> None:
-    found = checker().verify(*_pair(name))
-    assert (found["verdict"], found["checked"]) == ("held", found["leaves"])
+    verdict = checker().verify(*_pair(name))
+    assert (verdict["verdict"], verdict["checked"]) == ("held", verdict["leaves"])
 
 
 @pytest.mark.parametrize("name", _WITH_CLEARANCE)
 def test_with_clearance_all_but_peaks_between_samples_are_held(name: str) -> None:
-    found = checker().verify(*_pair(name))
-    assert found["verdict"] == "not covered"
-    assert all(where.rpartition("/")[2] in _BETWEEN for where in found["not_covered"]), found["not_covered"]
+    verdict = checker().verify(*_pair(name))
+    assert verdict["verdict"] == "not covered"
+    assert all(where.rpartition("/")[2] in _BETWEEN for where in verdict["not_covered"]), verdict["not_covered"]
 
 
 def test_a_peak_below_what_an_error_strains_at_a_dead_point_is_broken() -> None:
@@ -116,7 +116,7 @@ def test_a_peak_below_what_an_error_strains_at_a_dead_point_is_broken() -> None:
 def test_figures_that_are_off_by_a_millionth_are_broken(name: str, step: int) -> None:
     request, answer = _pair(name)
     largest = max(abs(load or 0.0) for pin in answer["pins"] for load in pin["load_N"])
-    seen = 0
+    count = 0
     for path in list(numbers(answer))[::step]:
         value, field = at(answer, path), next(part for part in reversed(path) if isinstance(part, str))
         if "timing" in path or field in _LEVEL or value == 0 or (name in _WITH_CLEARANCE and field in _BETWEEN):
@@ -124,12 +124,12 @@ def test_figures_that_are_off_by_a_millionth_are_broken(name: str, step: int) ->
         if field == "load_N" and abs(value) < 1e-6 * largest:
             # what rounding leaves
             continue
-        seen += 1
+        count += 1
         try:
             assert is_broken(request, replaced(answer, path, value * (1 + 1e-6))), path
         except checker().Unreadable:
             continue
-    assert seen > 10 // step
+    assert count > 10 // step
 
 
 @pytest.mark.parametrize(
@@ -183,16 +183,16 @@ def test_examples_are_not_broken(name: str) -> None:
 def test_the_output_of_a_scroll_is_held() -> None:
     body = json.loads(json.dumps(SINGLE["scroll-three-pins"] | {"outputs": ["pin_loads"], "angles": _ANGLES}))
     answer = answered(body)
-    found = checker().verify(body, answer)
-    assert (found["verdict"], found["checked"]) == ("held", found["leaves"])
+    verdict = checker().verify(body, answer)
+    assert (verdict["verdict"], verdict["checked"]) == ("held", verdict["leaves"])
     load = ("pin_loads", "pins", 1, "load_N", 2)
     assert is_broken(body, replaced(answer, load, at(answer, load) * (1 + 1e-6)))
 
 
 def test_a_question_that_is_not_known_is_named() -> None:
     request, answer = _pair("3 even")
-    found = checker().verify({**request, "lubricant": "oil"}, answer)
-    assert (found["verdict"], found["claims"][0]["where"]) == ("not covered", "/request/lubricant")
+    verdict = checker().verify({**request, "lubricant": "oil"}, answer)
+    assert (verdict["verdict"], verdict["claims"][0]["where"]) == ("not covered", "/request/lubricant")
 
 
 def _pins(request: dict[str, Any]) -> Any:
@@ -221,8 +221,8 @@ def test_loads_of_any_pattern_are_the_elastic_ones(bearing: dict[str, Any]) -> N
         pushed = np.array(rows)
         targets = np.array([12.0, 0.0][: len(rows)])
         loads = stiffness * (np.linalg.solve(pushed * stiffness @ pushed.T, targets) @ pushed)
-        found = [pins.load(k, 12.0, angle)[0] for k in range(levers.size)]
-        np.testing.assert_allclose(found, loads, rtol=1e-9, atol=1e-9 * np.max(np.abs(loads)))
+        values = [pins.load(k, 12.0, angle)[0] for k in range(levers.size)]
+        np.testing.assert_allclose(values, loads, rtol=1e-9, atol=1e-9 * np.max(np.abs(loads)))
         if bearing["type"] == "rigid":
             assert pins.load(4, 12.0, angle)[0] == pytest.approx(-np.sum(loads), abs=1e-9)
 
@@ -234,19 +234,19 @@ def test_a_peak_is_enclosed(name: str) -> None:
     pins = _pins(request)
     torque = part("pins").causes(part("numbers").Place(request, "request"))["rotation"]
     for k in range(len(pins.shapes)):
-        found = part("pin_peaks").peak(pins, k, torque)
+        peak = part("pin_peaks").peak(pins, k, torque)
         values = [abs(pins.load(k, torque.at(angle), angle)[0]) for angle in np.linspace(0.0, 360.0, 2000)]
-        assert found.low <= found.high <= found.low * (1 + 1e-9) + 1e-12
-        assert max(values) <= found.high + 1e-12
-        assert max(values) >= found.low * (1 - 1e-3)
+        assert peak.low <= peak.high <= peak.low * (1 + 1e-9) + 1e-12
+        assert max(values) <= peak.high + 1e-12
+        assert max(values) >= peak.low * (1 - 1e-3)
 
 
 def test_a_table_is_linear_between_its_entries_and_around_the_revolution() -> None:
     """Independent: numpy; its integral by a fine sum."""
     torque = part("pins").Torque(part("numbers").Place(_TABLE), "torque_Nm")
     angles = np.linspace(0.0, 359.0, 360)
-    wanted = np.interp(angles, _TABLE["angle_deg"], _TABLE["torque_Nm"], period=360.0)
-    np.testing.assert_allclose([torque.at(angle) for angle in angles], wanted, atol=1e-12)
+    actual = np.interp(angles, _TABLE["angle_deg"], _TABLE["torque_Nm"], period=360.0)
+    np.testing.assert_allclose([torque.at(angle) for angle in angles], actual, atol=1e-12)
     fine = (np.arange(40_000) + 0.5) * 120.0 / 40_000
     whole = np.mean(np.interp(fine, _TABLE["angle_deg"], _TABLE["torque_Nm"], period=360.0)) * radians(120.0)
     assert torque.work(0.0, 120.0) == pytest.approx(whole, rel=1e-7)
@@ -291,9 +291,9 @@ def test_loads_of_any_pins_are_held(pins: list[dict[str, float]], torque: Any, b
     except ValueError:
         # two in one place
         return
-    found = checker().verify(request, answer)
-    assert not [claim for claim in found["claims"] if claim["verdict"] == "broken"]
-    assert all(where.rpartition("/")[2] in {*_BETWEEN, *_UNTOLD} for where in found["not_covered"])
+    verdict = checker().verify(request, answer)
+    assert not [claim for claim in verdict["claims"] if claim["verdict"] == "broken"]
+    assert all(where.rpartition("/")[2] in {*_BETWEEN, *_UNTOLD} for where in verdict["not_covered"])
 
 
 #: of contacts that certify little, and of pins that are all but on a line

@@ -16,19 +16,19 @@ def test_claims_are_as_wide_as_they_were(number: int, name: str) -> None:
     record = records()[name]
     # of an answer and what is made up of it by day one, of the next that is tried by day the next; at night and under
     # mutants all
-    sent = submissions(name, record["request"], record["answer"])
-    for place, (one, recorded) in enumerate(zip(sent, record["judgements"], strict=True)):
-        if not ALL and place != number // 2 % len(sent):
+    actual_submissions = submissions(name, record["request"], record["answer"])
+    for place, (actual_submission, recorded) in enumerate(zip(actual_submissions, record["judgements"], strict=True)):
+        if not ALL and place != number // 2 % len(actual_submissions):
             continue
-        found = judgement(*one)
-        differ = [pair for pair in zip(found["claims"], recorded["claims"], strict=False) if not _alike(*pair)]
+        verdict = judgement(*actual_submission)
+        differ = [pair for pair in zip(verdict["claims"], recorded["claims"], strict=False) if not _alike(*pair)]
         assert not differ, differ[:4]
-        assert found["whole"] == recorded["whole"]
-        assert len(found["claims"]) == len(recorded["claims"])
+        assert verdict["whole"] == recorded["whole"]
+        assert len(verdict["claims"]) == len(recorded["claims"])
 
 
-def _alike(one: Line, other: Line) -> bool:
-    return one[:2] == other[:2] and all(
+def _alike(first: Line, second: Line) -> bool:
+    return first[:2] == second[:2] and all(
         (a is None) == (b is None) and (a is None or math.isclose(a, b, rel_tol=_CLOSE, abs_tol=1e-300))
-        for a, b in zip(one[2:], other[2:], strict=True)
+        for a, b in zip(first[2:], second[2:], strict=True)
     )

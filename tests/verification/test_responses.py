@@ -18,7 +18,7 @@ def real(value: float) -> Any:
 def test_a_response_of_force_and_moment(force: float, moment: float, exact: bool) -> None:
     """Analytic: a unit of force at 7 m adds 1, and about 3 m a moment of 4."""
     numbers = part("numbers")
-    shares = tuple({0.0: numbers.ZERO, 1.0: numbers.ONE}.get(each, real(each)) for each in (force, moment))
+    shares = tuple({0.0: numbers.ZERO, 1.0: numbers.ONE}.get(value, real(value)) for value in (force, moment))
     machine = Fields(shares={"both": shares}, plane=real(3.0))
     arm = part("machine").Machine.arm(machine, "both", real(7.0), numbers.ONE if exact else numbers.ABOUT_ONE)
     assert float(arm) == pytest.approx(force + 4.0 * moment, rel=1e-12)
@@ -43,7 +43,7 @@ def test_cranks_are_equally_near_by_the_extent_of_all(far: float, throws: dict[i
     """Analytic: 2e-8 m are within 1e-9 of 101 m, and not of 3 m."""
     places = [0.0, 1.0, far]
     webs = [{"name": "between", "position_m": 0.5 + 1e-8}, {"name": "far", "position_m": far}]
-    design = part("numbers").Place({"throws": [{"position_m": each} for each in places[:2]], "webs": webs})
+    design = part("numbers").Place({"throws": [{"position_m": place} for place in places[:2]], "webs": webs})
     shares = part("cranks").shares(design)["between"]
     assert {throw: float(share) for throw, share in shares.items()} == throws
 

@@ -72,27 +72,29 @@ from tests.verification.test_curves import part
     ),
 )
 def test_what_cancels_is_judged_by_its_parts(mode: str, number: int, seed: int, claim: str) -> None:
-    sent = drawn(number, seed, mode)
-    assert sent is not None
-    answer = optimize(OptimizeRequest.model_validate(sent))
-    found = {
-        one["claim"]: one["verdict"]
-        for one in checker().verify(json.loads(json.dumps(sent)), json.loads(answer.model_dump_json()))["claims"]
+    drawing = drawn(number, seed, mode)
+    assert drawing is not None
+    answer = optimize(OptimizeRequest.model_validate(drawing))
+    verdicts = {
+        statement["claim"]: statement["verdict"]
+        for statement in checker().verify(json.loads(json.dumps(drawing)), json.loads(answer.model_dump_json()))[
+            "claims"
+        ]
     }
-    assert found[claim] == "held"
-    assert "broken" not in found.values()
+    assert verdicts[claim] == "held"
+    assert "broken" not in verdicts.values()
 
 
 def test_a_yardstick_of_what_webs_are_implied_to_carry_is_named() -> None:
     """Regression: webs that are implied to carry nothing cancel nothing, which the checker does not show."""
-    sent = drawn(4934, 95, "parts")
-    assert sent is not None
-    answer = json.loads(optimize(OptimizeRequest.model_validate(sent)).model_dump_json())
+    drawing = drawn(4934, 95, "parts")
+    assert drawing is not None
+    answer = json.loads(optimize(OptimizeRequest.model_validate(drawing)).model_dump_json())
     assert answer["certificate"]["implied_max_mass_kg"] == {"1": 0.0, "2": 0.0}
-    found = checker().verify(json.loads(json.dumps(sent)), answer)
-    assert [one["claim"] for one in found["claims"] if one["verdict"] != "held"] == ["yardstick"]
+    verdict = checker().verify(json.loads(json.dumps(drawing)), answer)
+    assert [claim["claim"] for claim in verdict["claims"] if claim["verdict"] != "held"] == ["yardstick"]
     answer["certificate"]["mass_yardstick_kg"] *= 1.01
-    assert [claim.split()[0] for claim in broken(sent, answer)] == ["yardstick"]
+    assert [claim.split()[0] for claim in broken(drawing, answer)] == ["yardstick"]
 
 
 @pytest.mark.parametrize(
@@ -127,12 +129,12 @@ def test_a_yardstick_of_what_webs_are_implied_to_carry_is_named() -> None:
     ),
 )
 def test_masses_that_are_off_are_judged_at_every_corner(mode: str, number: int, seed: int, share: float) -> None:
-    sent = drawn(number, seed, mode)
-    assert sent is not None
-    sent["tolerances"] = (sent.get("tolerances") or {}) | {"reciprocating_mass_relative": share}
-    answer = optimize(OptimizeRequest.model_validate(sent))
-    judged = checker().verify(json.loads(json.dumps(sent)), json.loads(answer.model_dump_json()))
-    assert "broken" not in {each["verdict"] for each in judged["claims"]}
+    drawing = drawn(number, seed, mode)
+    assert drawing is not None
+    drawing["tolerances"] = (drawing.get("tolerances") or {}) | {"reciprocating_mass_relative": share}
+    answer = optimize(OptimizeRequest.model_validate(drawing))
+    judged = checker().verify(json.loads(json.dumps(drawing)), json.loads(answer.model_dump_json()))
+    assert "broken" not in {claim["verdict"] for claim in judged["claims"]}
 
 
 def test_every_figure_of_masses_that_are_off_is_covered() -> None:
@@ -159,13 +161,13 @@ def test_the_lightest_that_cancels_a_row_of_any_size(size: float) -> None:
     """Analytic: a force by a kilogram on the web of the larger radius that may carry any, and no row of nothing."""
     place, real = part("numbers").Place, part("numbers").real
     body = {"machine": machine([throw(0.0, 0.0, [row(0.0, 1.0)])], [web("a", 0.0, 4.0, 0.1), web("b", 0.2, 4.0, 0.4)])}
-    asked = place(body, "request")
-    built = part("machine").Machine(asked / "machine", asked / "objective", place(None), place(None))
+    position = place(body, "request")
+    built = part("machine").Machine(position / "machine", position / "objective", place(None), place(None))
     rows = {name: {name: part("numbers").ONE} for name in ("force", "moment")}
     statement, sizes = part("program").Statement(built, place({}), rows), {"force": real(size), "moment": real(0.0)}
     for implied, radius in ({}, 0.4), ({"b": 0.0}, 0.1):
-        found = statement.lightest(sizes, place(implied))
-        assert float(found) == pytest.approx(size / (radius * float(built.square)), rel=1e-12)
+        extent = statement.lightest(sizes, place(implied))
+        assert float(extent) == pytest.approx(size / (radius * float(built.square)), rel=1e-12)
 
 
 def _full_plate(opening_deg: float) -> bool:

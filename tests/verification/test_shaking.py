@@ -29,8 +29,8 @@ def _answered(rotation: str, order: int, **more: Any) -> tuple[dict[str, Any], d
 def test_every_number_of_them_is_held(rotation: str, order: int) -> None:
     body, answer = _answered(rotation, order)
     assert not broken(body, answer)
-    found = checker().verify(body, answer)
-    assert (found["verdict"], found["checked"]) == ("held", found["leaves"])
+    verdict = checker().verify(body, answer)
+    assert (verdict["verdict"], verdict["checked"]) == ("held", verdict["leaves"])
 
 
 @pytest.mark.parametrize("rotation", ["ccw", "cw"])
@@ -40,26 +40,26 @@ def test_a_phase_of_the_other_sense_is_broken(rotation: str) -> None:
     load = answer["foundation_loads"][0]["after"]["couple_of_x_forces"]
     assert load["amplitude_Nm"] > 0
     load["phase_deg"] = (360.0 - load["phase_deg"]) % 360.0
-    assert any(one.startswith("foundation") for one in broken(body, answer))
+    assert any(claim.startswith("foundation") for claim in broken(body, answer))
 
 
 def test_a_load_that_is_none_may_not_be_called_some_nor_the_other_way_round() -> None:
     body, answer = _answered("ccw", 3)
     before = answer["foundation_loads"][0]["before"]
     before["force_x"]["amplitude_N"] = 1e-3
-    assert any(one.startswith("foundation") for one in broken(body, answer))
+    assert any(claim.startswith("foundation") for claim in broken(body, answer))
     body, answer = _answered("ccw", 4)
     before = answer["foundation_loads"][0]["before"]
     before["force_x"] = {"amplitude_N": 0.0, "phase_deg": 0.0}
-    assert any(one.startswith("foundation") for one in broken(body, answer))
+    assert any(claim.startswith("foundation") for claim in broken(body, answer))
 
 
 def test_what_a_load_is_small_beside() -> None:
     """Analytic: the sizes of all that is added up, of a rod a third with the piston, about a plane midway."""
     body, _ = _answered("ccw", 1)
     place = part("numbers").Place
-    asked = place(body, "request")
-    built = part("machine").Machine(asked / "machine", asked / "objective", place(None), place(None))
+    position = place(body, "request")
+    built = part("machine").Machine(position / "machine", position / "objective", place(None), place(None))
     mass = part("machine").Mass
     heavy = mass(part("numbers").real(0.5), part("numbers").ONE, part("numbers").ZERO, part("numbers").real(0.45))
     fitted = part("answer").NOTHING_FITTED._replace(turning=[heavy])

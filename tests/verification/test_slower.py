@@ -44,13 +44,13 @@ _NAMES = [name for name in records() if not any(part in name for part in (*LEFT_
 def slower(value: Any, name: str = "") -> Any:
     """The same at 2^-20 times the speed."""
     if name == "shadow_prices" and isinstance(value, list):
-        return [each | {"value": each["value"] * (_SLOWER if each["unit"] in _PRICES else 1.0)} for each in value]
+        return [entry | {"value": entry["value"] * (_SLOWER if entry["unit"] in _PRICES else 1.0)} for entry in value]
     if name in ("multipliers", "nominal_multipliers") and isinstance(value, dict):
-        return {key: _slower_multipliers(each, key) for key, each in value.items()}
+        return {key: _slower_multipliers(value, key) for key, value in value.items()}
     if isinstance(value, dict):
-        return {key: slower(each, key) for key, each in value.items()}
+        return {key: slower(value, key) for key, value in value.items()}
     if isinstance(value, list):
-        return [slower(each, name) for each in value]
+        return [slower(value, name) for value in value]
     if not isinstance(value, int | float) or isinstance(value, bool):
         return value
     return value * (2.0**-20 if _SPEED.search(name) else _SLOWER if _PROPORTIONAL.search(name) else 1.0)
@@ -66,7 +66,9 @@ def _slower_multipliers(proof: Any, bounded: str) -> Any:
         return value * factor if isinstance(value, float) else value
 
     changed = {
-        part: [{k: times(v, of_forces) if k in ("x", "y", "value") else v for k, v in each.items()} for each in values]
+        part: [
+            {k: times(v, of_forces) if k in ("x", "y", "value") else v for k, v in entry.items()} for entry in values
+        ]
         for part, values in proof.items()
         if isinstance(values, list)
     }

@@ -74,21 +74,24 @@ def _pair(name: str) -> tuple[Any, str]:
 def _judge(request: Any, answer: Any) -> Callable[[Any], bool]:
     """Whether a claim of the stages is broken, of answers that differ in these alone."""
     place = part("numbers").Place
-    asked, given_ = place(request, "request"), place(answer, "answer")
+    position, actual_place = place(request, "request"), place(answer, "answer")
     plan = part("machine").Machine(
-        asked / "machine", asked / "objective", given_ / "reference_plane_m", asked / "machine" / "max_total_mass_kg"
+        position / "machine",
+        position / "objective",
+        actual_place / "reference_plane_m",
+        position / "machine" / "max_total_mass_kg",
     )
-    claims = part("answer").fitted(asked, plan, given_ / "counterweights", given_ / "balance_shafts")
+    claims = part("answer").fitted(position, plan, actual_place / "counterweights", actual_place / "balance_shafts")
     fitted = None
     while answer["status"] != "infeasible" and fitted is None:
         try:
             next(claims)
-        except StopIteration as done:
-            fitted = done.value
+        except StopIteration as value:
+            fitted = value.value
 
     def refuted(changed: Any) -> bool:
-        found = list(part("stages").stages(asked, plan, place(changed, "answer"), fitted))
-        return any(room is not None and room.high < 0 for _, _, room, _ in found)
+        stages = list(part("stages").stages(position, plan, place(changed, "answer"), fitted))
+        return any(room is not None and room.high < 0 for _, _, room, _ in stages)
 
     return refuted
 
@@ -96,9 +99,9 @@ def _judge(request: Any, answer: Any) -> Callable[[Any], bool]:
 @pytest.mark.parametrize("name", night.part(2, _MADE))
 def test_every_number_of_genuine_stages_is_held(name: str) -> None:
     request, text = _pair(name)
-    found = checker().verify(request, json.loads(text))
+    verdict = checker().verify(request, json.loads(text))
     assert not broken(request, json.loads(text))
-    assert not [where for where in found["not_covered"] if "stages" in where]
+    assert not [where for where in verdict["not_covered"] if "stages" in where]
 
 
 @pytest.mark.parametrize("step", [6, pytest.param(1, marks=pytest.mark.nightly)])
@@ -109,24 +112,24 @@ def test_figures_that_are_off_by_a_millionth_are_broken(name: str, step: int) ->
     answer = json.loads(text)
     refuted = _judge(request, answer)
     assert not refuted(answer)
-    shown, seen = answer["stages"], 0
-    for k, stage in enumerate(shown):
+    stages, count = answer["stages"], 0
+    for k, stage in enumerate(stages):
         places = [("stages", k, *path) for path in numbers(stage)]
-        most = max(abs(one["value"]) for one in shown if one["unit"] == stage["unit"])
+        most = max(abs(level["value"]) for level in stages if level["unit"] == stage["unit"])
         for path in places[k % step :: step]:
             value = at(answer, path)
             # rounding has no share, nor has its direction one
-            if value == 0 or min(_size(answer, path), abs(at(shown, (k, "value"))) or most) < _DUST * most:
+            if value == 0 or min(_size(answer, path), abs(at(stages, (k, "value"))) or most) < _DUST * most:
                 continue
-            seen += 1
+            count += 1
             assert refuted(replaced(answer, path, value * (1 + _SHARE))), path
-    assert seen > 18 // step
+    assert count > 18 // step
 
 
 def _size(answer: Any, path: tuple[str | int, ...]) -> float:
     """What a place tells the size of, or that of which it tells the direction."""
-    told = path[-1] in ("direction_deg", "frequency_Hz", "order", "transferred_share", "position_m")
-    size: float = at(answer, path[:-1]).get("peak", float("inf")) if told else abs(at(answer, path))
+    verdict = path[-1] in ("direction_deg", "frequency_Hz", "order", "transferred_share", "position_m")
+    size: float = at(answer, path[:-1]).get("peak", float("inf")) if verdict else abs(at(answer, path))
     return size
 
 
@@ -135,11 +138,11 @@ def test_what_acts_is_called_as_it_is(field: str) -> None:
     request, text = _pair("clockwise")
     answer = json.loads(text)
     refuted = _judge(request, answer)
-    other = {"motion": "none", "quantity": "couple", "unit": "N mm", "order": 3}[field]
+    value = {"motion": "none", "quantity": "couple", "unit": "N mm", "order": 3}[field]
     for k in (0, 3, 7):
-        assert refuted(replaced(answer, ("stages", k, "acting", 0, field), other))
-        if answer["stages"][k]["left"][0][field] != other:
-            assert refuted(replaced(answer, ("stages", k, "left", 0, field), other))
+        assert refuted(replaced(answer, ("stages", k, "acting", 0, field), value))
+        if answer["stages"][k]["left"][0][field] != value:
+            assert refuted(replaced(answer, ("stages", k, "left", 0, field), value))
 
 
 @pytest.mark.parametrize("verdict", ["fully", "partly", "no"])
@@ -188,8 +191,8 @@ def test_words_are_no_claims() -> None:
     answer = json.loads(text)
     whole = checker().verify(request, answer)
     for path in (("title",), ("formula",), ("plane",), ("rules_of_thumb", 0, "source")):
-        found = checker().verify(request, replaced(answer, ("stages", 2, *path), "something else"))
-        assert (found["leaves"], found["checked"]) == (whole["leaves"], whole["checked"])
+        verdict = checker().verify(request, replaced(answer, ("stages", 2, *path), "something else"))
+        assert (verdict["leaves"], verdict["checked"]) == (whole["leaves"], whole["checked"])
 
 
 def _number(value: complex) -> Any:
@@ -210,17 +213,20 @@ def test_what_rotates_is_opposed_first(fitted: complex, left: complex, taken: co
     """Analytic: of 2 along x as much as is fitted along -x, and no more than all of it."""
     pair, zero, turn = part("ellipses").Pair, _number(0j), 0.6 + 0.8j
     parts = (pair(_number(2 * turn), zero), pair(_number(1j * turn), _number(5 + 0j)))
-    found = part("stages").superposed(*parts, pair(_number(fitted * turn), _number(-3 + 0j)))
-    assert found[0].co.middle() == pytest.approx(left * turn, abs=1e-12)
-    assert found[1].co.middle() == pytest.approx((taken + 1j) * turn, abs=1e-12)
-    assert found[1].counter.middle() == pytest.approx(2.0)
+    superposition = part("stages").superposed(*parts, pair(_number(fitted * turn), _number(-3 + 0j)))
+    assert superposition[0].co.middle() == pytest.approx(left * turn, abs=1e-12)
+    assert superposition[1].co.middle() == pytest.approx((taken + 1j) * turn, abs=1e-12)
+    assert superposition[1].counter.middle() == pytest.approx(2.0)
 
 
 def test_of_nothing_that_rotates_nothing_is_opposed() -> None:
     """Analytic: what is known to its own size alone may be opposed by no more than that."""
     pair, zero = part("ellipses").Pair, _number(0j)
-    found = part("stages").superposed(pair(zero, zero), pair(zero, zero), pair(_number(-7 + 0j), zero))
-    assert (float(abs(found[0].co)), found[1].co.middle()) == (pytest.approx(0.0, abs=1e-300), pytest.approx(-7.0))
+    superposition = part("stages").superposed(pair(zero, zero), pair(zero, zero), pair(_number(-7 + 0j), zero))
+    assert (float(abs(superposition[0].co)), superposition[1].co.middle()) == (
+        pytest.approx(0.0, abs=1e-300),
+        pytest.approx(-7.0),
+    )
 
 
 _EDGES = [
@@ -250,8 +256,8 @@ def test_edges_between_shapes(sizes: tuple[float, float], motions: set[str], ver
 def test_verdicts_of_several_together() -> None:
     """Analytic: partly where they differ, of what is none nothing is said."""
     tools = part("ellipses")
-    one, none = _number(1 + 0j), _number(0j)
-    turns, fixed, nothing = tools.Pair(one, none), tools.Pair(one, one), tools.Pair(none, none)
+    number, none = _number(1 + 0j), _number(0j)
+    turns, fixed, nothing = tools.Pair(number, none), tools.Pair(number, number), tools.Pair(none, none)
     assert tools.all_balanceable([(turns, 1), (nothing, 2)]) == {"fully"}
     assert tools.all_balanceable([(turns, 1), (fixed, 2)]) == {"partly"}
     assert tools.all_balanceable([(fixed, 2), (nothing, 1)]) == {"no"}

@@ -13,12 +13,12 @@ _SOME = 2
 _LONG = ("matching", "gas", "indicated pressure", "dynamics", "four strokes")
 
 
-@pytest.mark.parametrize("name", part(2, [one for one in names() if one not in _LONG][::8]))
+@pytest.mark.parametrize("name", part(2, [name for name in names() if name not in _LONG][::8]))
 def test_some_of_the_table(name: str) -> None:
     request, answer = pair(name)
-    found, missed = tally(request, answer, max(1, len(list(numbers(answer))) // _SOME))
-    assert not missed, [(one.path, one.way) for one in missed]
-    assert found["caught"] > 0
+    counts, missed = tally(request, answer, max(1, len(list(numbers(answer))) // _SOME))
+    assert not missed, [(forgery.path, forgery.way) for forgery in missed]
+    assert counts["caught"] > 0
 
 
 @pytest.mark.nightly
@@ -27,7 +27,7 @@ def test_the_whole_table(name: str) -> None:
     request, answer = pair(name)
     assert checker().verify(request, answer)["verdict"] != "broken"
     _, missed = tally(request, answer, 1)
-    assert not missed, [(one.path, one.way) for one in missed]
+    assert not missed, [(forgery.path, forgery.way) for forgery in missed]
 
 
 #: what nobody may falsify, whatever else of an answer is not covered
@@ -39,12 +39,12 @@ _CORE = (
 
 
 @pytest.mark.nightly
-@pytest.mark.parametrize("name", [one for one in names() if one not in ("matching", "sweep")])
+@pytest.mark.parametrize("name", [name for name in names() if name not in ("matching", "sweep")])
 def test_core_claims_are_caught_whatever_else_is_not_covered(name: str) -> None:
     from tests.verification.falsified import falsified, outcome, silent
 
     request, answer = pair(name)
     for path in numbers(answer):
         if path[-1] in _CORE and not {"main_bearings", "roll", "multipliers"} & {*path}:
-            for one in falsified(answer, path, None):
-                assert outcome(request, one, silent()) in ("caught", "rounding"), (path, one.way)
+            for forgery in falsified(answer, path, None):
+                assert outcome(request, forgery, silent()) in ("caught", "rounding"), (path, forgery.way)

@@ -72,40 +72,40 @@ _KINDS: dict[str, dict[str, Any]] = {
 
 
 @cache
-def _told(name: str) -> str:
+def _answer_text(name: str) -> str:
     return optimize(OptimizeRequest.model_validate(_KINDS[name])).model_dump_json()
 
 
 def _claims(body: dict[str, Any], answer: dict[str, Any]) -> dict[str, str]:
-    return {one["claim"]: one["verdict"] for one in checker().verify(body, answer)["claims"]}
+    return {claim["claim"]: claim["verdict"] for claim in checker().verify(body, answer)["claims"]}
 
 
 def _changed(answer: dict[str, Any], factor: float, *path: str) -> dict[str, Any]:
-    found = copy.deepcopy(answer)
-    place = found
+    variant = copy.deepcopy(answer)
+    place = variant
     for name in path[:-1]:
         place = place[name]
     place[path[-1]] *= factor
-    return found
+    return variant
 
 
 @pytest.mark.parametrize("name", part(6, _KINDS))
 def test_what_cuts_prove_is_held_and_what_is_falsified_is_caught(name: str) -> None:
-    body, answer = _KINDS[name], json.loads(_told(name))
+    body, answer = _KINDS[name], json.loads(_answer_text(name))
     assert answer["status"] == "optimal"
-    found = _claims(body, answer)
+    claims = _claims(body, answer)
     held = {"lower_bound", "mass_lower_bound", "cuts", "counterweights", "max_mass", "after", "gap", "status"}
-    assert {claim for claim, verdict in found.items() if verdict == "held"} >= held
+    assert {claim for claim, verdict in claims.items() if verdict == "held"} >= held
     # no angle between the cuts is worse
-    assert found["objective"] == found["before"] == "held"
-    assert (found.get("reach") == "not covered") == (name == "no limits")
+    assert claims["objective"] == claims["before"] == "held"
+    assert (claims.get("reach") == "not covered") == (name == "no limits")
     rise = 1.0 + 1e-6 + answer["certificate"]["gap"] / answer["certificate"]["objective"]
     wrong_by = {"lower_bound": [rise], "mass_lower_bound_kg": [1 + 1e-6], "objective": [1 - 1e-8, 1 + 1e-8]}
     for field, factor in ((field, factor) for field, factors in wrong_by.items() for factor in factors):
         assert is_broken(body, _changed(answer, factor, "certificate", field)), field
     heavier = copy.deepcopy(answer)
-    for one in heavier["counterweights"]:
-        one["mass_kg"] *= 1.01
+    for counterweight in heavier["counterweights"]:
+        counterweight["mass_kg"] *= 1.01
     assert {claim for claim, verdict in _claims(body, heavier).items() if verdict == "broken"} >= {
         "total_mass",
         "after",
@@ -114,7 +114,7 @@ def test_what_cuts_prove_is_held_and_what_is_falsified_is_caught(name: str) -> N
 
 def test_multipliers_that_are_too_long_prove_no_more() -> None:
     """Analytic: |y| <= lambda is made to hold."""
-    body, answer = _KINDS["bearings"], json.loads(_told("bearings"))
+    body, answer = _KINDS["bearings"], json.loads(_answer_text("bearings"))
     for term in answer["certificate"]["multipliers"]["objective"]["terms"]:
         term["x"] *= 1000
         term["y"] *= 1000
@@ -130,10 +130,10 @@ def test_what_is_not_covered_is_named(what: str) -> None:
         body["tolerances"] = {"reciprocating_mass_relative": 0.01}
     else:
         body["fidelity"] = {"kinematics": "order_2"}
-    answer = json.loads(_told("bearings"))
-    told = {one["claim"]: one for one in checker().verify(body, answer)["claims"]}
-    assert (told["request"]["verdict"], told["request"]["where"]) == ("not covered", where[what])
-    assert "lower_bound" not in told
+    answer = json.loads(_answer_text("bearings"))
+    fields = {claim["claim"]: claim for claim in checker().verify(body, answer)["claims"]}
+    assert (fields["request"]["verdict"], fields["request"]["where"]) == ("not covered", where[what])
+    assert "lower_bound" not in fields
 
 
 def test_an_answer_out_of_reach_is_proven() -> None:
@@ -153,11 +153,11 @@ def test_an_answer_out_of_reach_is_proven() -> None:
 def test_nothing_that_is_sent_raises(data: st.DataObject) -> None:
     """Any JSON in any place of request and answer is judged, or refused by name."""
     name = "the largest of all orders"
-    sent: Any = {"request": _KINDS[name], "answer": json.loads(_told(name))}
-    places = st.sampled_from([path for path in paths(sent) if path])
+    variant: Any = {"request": _KINDS[name], "answer": json.loads(_answer_text(name))}
+    places = st.sampled_from([path for path in paths(variant) if path])
     for path, value in data.draw(st.lists(st.tuples(places, JSON), min_size=1, max_size=3)):
-        sent = replaced(sent, path, value)
-    judged(sent["request"], sent["answer"])
+        variant = replaced(variant, path, value)
+    judged(variant["request"], variant["answer"])
 
 
 _NOWHERE = [("bearing:Z", 10.0), ("bending:far", 10.0), ("bending:inf", 1.0), ("roll", 10.0), ("force", None)]
@@ -165,7 +165,7 @@ _NOWHERE = [("bearing:Z", 10.0), ("bending:far", 10.0), ("bending:inf", 1.0), ("
 
 @pytest.mark.parametrize(("response", "angle"), _NOWHERE)
 def test_terms_of_what_there_is_not_prove_nothing(response: str, angle: float | None) -> None:
-    body, answer = _KINDS["the largest of all orders"], json.loads(_told("the largest of all orders"))
+    body, answer = _KINDS["the largest of all orders"], json.loads(_answer_text("the largest of all orders"))
     term = answer["certificate"]["multipliers"]["objective"]["terms"][0]
     term["response"], term["angle_deg"] = response, angle
     assert "lower_bound" not in _claims(body, answer)
@@ -184,9 +184,9 @@ def test_a_moment_that_shafts_cancel_is_judged_by_what_they_add() -> None:
 def test_roll_alone_has_no_worst_case_of_bearings() -> None:
     """Regression: a machine with bearings whose goal is the roll was to print the load of one."""
     body = single([shaft("s", -1, 0.1, 4.0, x_m=0.1)], bearings=[{"name": n, "position_m": z} for n, z in _ENDS])
-    found = sound_answer({"machine": body, "objective": {"roll_weight": 1.0}, "tolerances": {"unbalance_kg_m": 0.01}})
-    assert found.worst_case is not None
-    assert found.worst_case.bearing_peak_N is None
+    answer = sound_answer({"machine": body, "objective": {"roll_weight": 1.0}, "tolerances": {"unbalance_kg_m": 0.01}})
+    assert answer.worst_case is not None
+    assert answer.worst_case.bearing_peak_N is None
 
 
 def test_a_load_that_counterweights_cancel_is_judged_by_what_they_add() -> None:

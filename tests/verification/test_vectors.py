@@ -18,7 +18,7 @@ _SCALES = (1e-7, 1.0, 1e7)
 
 
 def _hull(points: list[complex], way: complex) -> float:
-    return max((each * way.conjugate()).real for each in points)
+    return max((point * way.conjugate()).real for point in points)
 
 
 _WAYS = [cmath.rect(1.0, 0.1 + 0.7 * n) for n in range(9)]
@@ -28,12 +28,12 @@ _WAYS = [cmath.rect(1.0, 0.1 + 0.7 * n) for n in range(9)]
 @pytest.mark.parametrize("count", [1, 2, 5])
 def test_corners_of_a_zonotope_are_sums_of_both_signs(count: int, scale: float) -> None:
     """Independent: all sums; analytic: a zonotope of n directions has 2 n corners."""
-    vectors = [scale * each for each in _VECTORS[:count]]
+    vectors = [scale * vector for vector in _VECTORS[:count]]
     corners = part("misplacement").zonotope(vectors)
-    every = [sum(sign * each for sign, each in zip(signs, vectors, strict=True))
+    every = [sum(sign * vector for sign, vector in zip(signs, vectors, strict=True))
              for signs in product((1, -1), repeat=count)]  # fmt: skip
     assert len(corners) == 2 * count
-    assert all(min(abs(one - each) for each in every) <= 1e-14 * scale for one in corners)
+    assert all(min(abs(corner - phasor) for phasor in every) <= 1e-14 * scale for corner in corners)
     for way in _WAYS:
         assert _hull(corners, way) == pytest.approx(_hull(every, way), rel=1e-13)
 
@@ -48,9 +48,9 @@ def test_nothing_has_no_corners() -> None:
 @pytest.mark.parametrize("scale", _SCALES)
 def test_masses_are_worst_at_a_corner(start: complex, scale: float) -> None:
     """Independent: all corners one after the other."""
-    start, vectors = scale * start, [scale * each for each in _VECTORS]
+    start, vectors = scale * start, [scale * vector for vector in _VECTORS]
     worst = max(
-        abs(start + sum((1 + sign * 0.05) * each for sign, each in zip(signs, vectors, strict=True)))
+        abs(start + sum((1 + sign * 0.05) * vector for sign, vector in zip(signs, vectors, strict=True)))
         for signs in product((1, -1), repeat=len(vectors))
     )
     assert part("prices").worst_by_mass(start, vectors, 0.05) == pytest.approx(worst, rel=1e-13)
@@ -61,12 +61,12 @@ def test_masses_are_worst_at_a_corner(start: complex, scale: float) -> None:
 @pytest.mark.parametrize("angle", [0.02, 0.4])
 def test_angles_are_worst_at_an_end_or_along_what_is_left(start: complex, angle: float, scale: float) -> None:
     """Independent: the support of all arcs and of the start, in twenty thousand directions."""
-    worst = part("prices").worst_by_angle(scale * start, [scale * each for each in _VECTORS], angle)
+    worst = part("prices").worst_by_angle(scale * start, [scale * vector for vector in _VECTORS], angle)
     ways = np.linspace(0.0, 2.0 * np.pi, 20_001)
     support = (start * np.exp(-1j * ways)).real
-    for each in _VECTORS:
-        away = np.abs((ways - cmath.phase(each) + np.pi) % (2.0 * np.pi) - np.pi)
-        support += abs(each) * np.cos(np.maximum(away - angle, 0.0))
+    for arrow in _VECTORS:
+        away = np.abs((ways - cmath.phase(arrow) + np.pi) % (2.0 * np.pi) - np.pi)
+        support += abs(arrow) * np.cos(np.maximum(away - angle, 0.0))
     assert np.max(support) <= worst / scale * (1.0 + 1e-12)
     assert worst / scale == pytest.approx(np.max(support), rel=1e-6)
 
@@ -75,8 +75,8 @@ def test_one_vector_turns_by_all_of_the_angle() -> None:
     """Analytic: 5 j and 4 at 0.1 rad from there are as long as the sum of both at that angle, 0.3 rad towards it."""
     prices = part("prices")
     for side in (1.0, -1.0):
-        found = prices.worst_by_angle(5j, [cmath.rect(4.0, math.pi / 2 + 0.4 * side)], 0.1)
-        assert found == pytest.approx(abs(5.0 + cmath.rect(4.0, 0.3)), rel=1e-13)
+        worst_by_angle = prices.worst_by_angle(5j, [cmath.rect(4.0, math.pi / 2 + 0.4 * side)], 0.1)
+        assert worst_by_angle == pytest.approx(abs(5.0 + cmath.rect(4.0, 0.3)), rel=1e-13)
     assert prices.worst_by_angle(3j, [], 0.1) == 3.0
     assert prices.worst_by_angle(5j, [cmath.rect(4.0, math.pi / 2 + 0.05)], 0.1) == pytest.approx(9.0, rel=1e-13)
 
@@ -85,16 +85,16 @@ def test_one_vector_turns_by_all_of_the_angle() -> None:
 def test_an_outline_is_around_all_arcs_and_near_them(scale: float) -> None:
     """Analytic: tangents at the ends and in the middle leave an arc of 2 a by 1 / cos(a / 2) - 1 of its radius."""
     misplacement = part("misplacement")
-    vectors = [scale * each for each in _VECTORS]
+    vectors = [scale * vector for vector in _VECTORS]
     corners = misplacement.turned_outline(vectors)
     assert len(corners) == 4 * len(vectors)
     wide = sum(map(abs, vectors)) * (1.0 / math.cos(misplacement.ANGLE / 2.0) - 1.0)
     for way in [cmath.rect(1.0, 0.003 * n) for n in range(0, 2095, 7)]:
         arcs = 0.0
-        for each in vectors:
-            off = (cmath.phase(each) - cmath.phase(way) + math.pi) % (2.0 * math.pi) - math.pi
+        for arrow in vectors:
+            off = (cmath.phase(arrow) - cmath.phase(way) + math.pi) % (2.0 * math.pi) - math.pi
             least = max(abs(off) - misplacement.ANGLE, 0.0)
-            arcs += abs(each) * (math.cos(least) - math.cos(off))
+            arcs += abs(arrow) * (math.cos(least) - math.cos(off))
         assert arcs - 1e-13 * scale <= _hull(corners, way) <= arcs + wide * (1.0 + 1e-9)
 
 
@@ -123,10 +123,10 @@ def test_an_outline_is_around_all_arcs_and_near_them(scale: float) -> None:
 def test_circles_around_triangles(points: list[complex], radius: float, middle: complex, count: int) -> None:
     """Analytic: of whole numbers."""
     for scale in (1e-6, 1.0, 1e6):
-        found = part("circle").around([scale * each for each in points])
-        assert found[0] == pytest.approx(scale * radius, rel=1e-13)
-        assert found[1] == pytest.approx(scale * middle, rel=1e-13)
-        assert len(found[2]) == count
+        actual = part("circle").around([scale * point for point in points])
+        assert actual[0] == pytest.approx(scale * radius, rel=1e-13)
+        assert actual[1] == pytest.approx(scale * middle, rel=1e-13)
+        assert len(actual[2]) == count
 
 
 @pytest.mark.parametrize(
@@ -143,15 +143,15 @@ def test_circles_around_triangles(points: list[complex], radius: float, middle: 
 def test_the_smallest_circle_around_a_curve(harmonics: dict[int, complex], low: float, middle: complex) -> None:
     """Analytic."""
     for scale in (1e-6, 1.0, 1e6):
-        curve = part("harmonics").Curve({k: scale * each for k, each in harmonics.items()})
-        found = part("circle").smallest(curve)
-        assert found.low <= scale * low * (1 + 1e-12)
-        assert found.low == pytest.approx(scale * low, rel=3e-8)
-        assert found.high == pytest.approx(scale * low, rel=3e-8)
-        assert found.middle == pytest.approx(scale * middle, abs=3e-4 * scale)
+        curve = part("harmonics").Curve({k: scale * harmonic for k, harmonic in harmonics.items()})
+        minimum = part("circle").smallest(curve)
+        assert minimum.low <= scale * low * (1 + 1e-12)
+        assert minimum.low == pytest.approx(scale * low, rel=3e-8)
+        assert minimum.high == pytest.approx(scale * low, rel=3e-8)
+        assert minimum.middle == pytest.approx(scale * middle, abs=3e-4 * scale)
         # of no interest up to more than that
         assert part("circle").smallest(curve, scale * 2.0 * low).high <= scale * 2.0 * low
-    assert found.high >= found.low
+    assert minimum.high >= minimum.low
 
 
 _CURVE = {0: 0.3 - 0.7j, 1: 2 + 1j, -2: -1 + 3j, 3: 0.5j}
@@ -161,7 +161,7 @@ _CURVE = {0: 0.3 - 0.7j, 1: 2 + 1j, -2: -1 + 3j, 3: 0.5j}
 def test_what_a_curve_is_made_of(angle: float) -> None:
     """Analytic: the sum of its harmonics; seen along the axes of the frame, which it turns against."""
     curve = part("harmonics").Curve(_CURVE)
-    exact = sum(each * cmath.exp(1j * k * angle) for k, each in _CURVE.items())
+    exact = sum(phasor * cmath.exp(1j * k * angle) for k, phasor in _CURVE.items())
     assert curve.at(angle) == pytest.approx(exact, rel=1e-14)
     assert curve.sides(angle) == [curve.at(angle)]
     assert curve.length(angle) == pytest.approx(abs(exact), rel=1e-14)
@@ -193,14 +193,14 @@ def test_sizes_means_and_squares_of_a_curve() -> None:
 def test_where_a_peak_is(scale: float) -> None:
     """Analytic: an ellipse of half-axes 3 + 2 is longest where both phasors meet; of three phasors at 0."""
     curve = part("harmonics").Curve({1: scale * 3 * cmath.rect(1, 0.5), -1: scale * 2 * cmath.rect(1, -0.3)})
-    found = curve.peak()
-    assert found.low <= 5 * scale <= found.high * (1 + 1e-14)
-    assert found.high == pytest.approx(5 * scale, rel=3e-10)
+    peak = curve.peak()
+    assert peak.low <= 5 * scale <= peak.high * (1 + 1e-14)
+    assert peak.high == pytest.approx(5 * scale, rel=3e-10)
     # 0.5 + t = -0.3 - t, or half a revolution on
-    assert (found.angle + 0.4) % math.pi == pytest.approx(math.pi, abs=1e-4) or (
-        (found.angle + 0.4) % math.pi == pytest.approx(0.0, abs=1e-4)
+    assert (peak.angle + 0.4) % math.pi == pytest.approx(math.pi, abs=1e-4) or (
+        (peak.angle + 0.4) % math.pi == pytest.approx(0.0, abs=1e-4)
     )
-    assert curve.length(found.angle) == found.low
+    assert curve.length(peak.angle) == peak.low
     assert curve.peak(6 * scale).high <= 6 * scale * (1 + 1e-10) + 1e-13 * scale
 
 
@@ -236,8 +236,8 @@ def _corners(count: int) -> list[Any]:
     numbers = part("numbers")
     starts = (1.0, -3.0, 2.0)[:count]
     return [
-        Fields(terms={("force", "co"): Fields(start=numbers.real(one), row="a")}, floor={"a": numbers.real(floor)})
-        for one, floor in zip(starts, (0.5, 0.1, 0.2), strict=False)
+        Fields(terms={("force", "co"): Fields(start=numbers.real(start), row="a")}, floor={"a": numbers.real(floor)})
+        for start, floor in zip(starts, (0.5, 0.1, 0.2), strict=False)
     ]
 
 
@@ -249,8 +249,8 @@ def test_cuts_are_judged_where_they_prove_most() -> None:
 
     def cuts(value: float, *responses: str) -> list[Any]:
         return [
-            numbers.Place({"response": one, "part": "co", "x": value, "y": 5.0}, "answer", k)
-            for k, one in enumerate(responses)
+            numbers.Place({"response": text, "part": "co", "x": value, "y": 5.0}, "answer", k)
+            for k, text in enumerate(responses)
         ]
 
     assert worst(of, cuts(1.0, "force"), numbers.ZERO) is corners[2]

@@ -87,12 +87,12 @@ def _links() -> bytes:
 def _copies() -> bytes:
     """Many sheets that refer to one part."""
     inside = parts(dict.fromkeys(_TITLES, "<row><c><v>1</v></c></row>" * 5000))
-    one = inside["xl/worksheets/sheet0.xml"]
+    text = inside["xl/worksheets/sheet0.xml"]
     relations = str(inside["xl/_rels/workbook.xml.rels"])
     for k in range(1, len(_TITLES)):
         relations = relations.replace(f"sheet{k}.xml", "sheet0.xml")
         del inside[f"xl/worksheets/sheet{k}.xml"]
-    return packed(inside | {"xl/_rels/workbook.xml.rels": relations, "xl/worksheets/sheet0.xml": one})
+    return packed(inside | {"xl/_rels/workbook.xml.rels": relations, "xl/worksheets/sheet0.xml": text})
 
 
 BOMBS: dict[str, Callable[[], bytes]] = {

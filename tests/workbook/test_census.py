@@ -46,19 +46,19 @@ def _names(parts: dict[str, bytes]) -> None:
     parts["xl/workbook.xml"] = parts["xl/workbook.xml"].replace(b"</workbook>", name + b"</workbook>")
 
 
-def _one_part_twice(parts: dict[str, bytes]) -> None:
+def _repeated_part(parts: dict[str, bytes]) -> None:
     relations = parts["xl/_rels/workbook.xml.rels"]
     parts["xl/_rels/workbook.xml.rels"] = relations.replace(b"sheet2.xml", b"sheet1.xml")
 
 
-def _sheets_of_one_part(parts: dict[str, bytes]) -> None:
-    one = b'<sheet name="machine" sheetId="1" state="visible" r:id="rId1"/>'
-    many = one.replace(b"r:id", b"xmlns:r='r' r:id") * 5_000
+def _sheets_of_single_part(parts: dict[str, bytes]) -> None:
+    text = b'<sheet name="machine" sheetId="1" state="visible" r:id="rId1"/>'
+    many = text.replace(b"r:id", b"xmlns:r='r' r:id") * 5_000
     parts["xl/workbook.xml"] = parts["xl/workbook.xml"].replace(b"</sheets>", many + b"</sheets>")
 
 
 @pytest.mark.parametrize(
-    ("change", "told"),
+    ("change", "text"),
     [
         (_sheet(b'<row r="1"><c r="XFD1"><v>1</v></c></row>'), "machine!XFD1"),
         (_sheet(b'<row r="1048576"><c r="A1048576"><v>1</v></c></row>'), "machine!A1048576"),
@@ -69,18 +69,18 @@ def _sheets_of_one_part(parts: dict[str, bytes]) -> None:
         (_sheet(b"<row><c><f/><f/></c></row>" * 9_000 + b"<a/>" * 200_000), "elements"),
         (_styles, f"{MOST_OF_A_PART} elements"),
         (_names, f"{MOST_OF_A_PART} elements"),
-        (_one_part_twice, "same part"),
-        (_sheets_of_one_part, "twice"),
+        (_repeated_part, "same part"),
+        (_sheets_of_single_part, "twice"),
     ],
 )
 def test_it_is_refused_before_the_library_opens_it(
-    monkeypatch: pytest.MonkeyPatch, change: Callable[[dict[str, bytes]], None], told: str
+    monkeypatch: pytest.MonkeyPatch, change: Callable[[dict[str, bytes]], None], text: str
 ) -> None:
     def opened(*_: object, **__: object) -> None:
         raise AssertionError("the library has opened it")
 
     monkeypatch.setattr(files, "load_workbook", opened)
-    with pytest.raises(UnreadableWorkbook, match=told):
+    with pytest.raises(UnreadableWorkbook, match=text):
         workbook_sheets(changed(request_sheets(BODY), change))
 
 

@@ -27,17 +27,17 @@ def changed(path: Path, sheet: str, cell: str, value: object) -> None:
 
 def test_a_workbook_is_answered_as_its_json_is(machine: Path, tmp_path: Path) -> None:
     to = tmp_path / "answer.xlsx"
-    done = RUN.invoke(app, ["optimize", str(machine), "--json", "--to", str(to)])
-    assert done.exit_code == 0, done.output
-    said, same = (json.loads(RUN.invoke(app, ["optimize", file, "--json"]).stdout) for file in (
+    process = RUN.invoke(app, ["optimize", str(machine), "--json", "--to", str(to)])
+    assert process.exit_code == 0, process.output
+    document, same = (json.loads(RUN.invoke(app, ["optimize", file, "--json"]).stdout) for file in (
         str(machine), "examples/2d12.json"
     ))  # fmt: skip
-    assert said["counterweights"] == same["counterweights"]
+    assert document["counterweights"] == same["counterweights"]
     book = openpyxl.load_workbook(to)
     heads, *lines = book["counterweights"].iter_rows(values_only=True)
     mass = heads.index("mass_kg")
     assert [line[mass] for line in lines] == pytest.approx(
-        [one["mass_kg"] for one in same["counterweights"]], rel=1e-14
+        [counterweight["mass_kg"] for counterweight in same["counterweights"]], rel=1e-14
     )
     answer = dict(line[:2] for line in book["answer"].iter_rows(values_only=True))
     assert answer["status"] == "optimal"
@@ -66,7 +66,7 @@ def test_what_does_not_go_together_is_said_by_its_cell(machine: Path) -> None:
 
 
 @pytest.mark.parametrize(
-    ("command", "said"),
+    ("command", "text"),
     [
         (["template", "machine.csv"], "must end in .xlsx"),
         (["template", "no/folder/machine.xlsx"], "cannot write"),
@@ -76,6 +76,6 @@ def test_what_does_not_go_together_is_said_by_its_cell(machine: Path) -> None:
         (["optimize", "examples/2d12.json", "--to", "no/folder/answer.xlsx"], "cannot write"),
     ],
 )
-def test_bad_files_are_a_line_and_the_exit_code_2(command: list[str], said: str) -> None:
+def test_bad_files_are_a_line_and_the_exit_code_2(command: list[str], text: str) -> None:
     refused = RUN.invoke(app, command)
-    assert (refused.exit_code, said in refused.stderr) == (2, True), refused.output
+    assert (refused.exit_code, text in refused.stderr) == (2, True), refused.output

@@ -50,10 +50,10 @@ def test_names_that_a_spreadsheet_made_numbers_of() -> None:
 
 
 def test_where_a_field_stands_or_is_missing() -> None:
-    found = read(request_sheets(bodies()["2d12"]))
+    content = read(request_sheets(bodies()["2d12"]))
 
     def where(*path: str | int) -> str:
-        return found.where(FieldProblem(path, ""))
+        return content.where(FieldProblem(path, ""))
 
     assert where("machine", "webs", 2, "max_mass_kg") == "webs!D4"
     assert where("machine", "throws", 1, "rows", 0, "connecting_rod", "length_m") == "rows!E3"
@@ -63,7 +63,7 @@ def test_where_a_field_stands_or_is_missing() -> None:
 
 
 @pytest.mark.parametrize(
-    ("sheets", "said"),
+    ("sheets", "text"),
     [
         ({"machines": [["field"]]}, "machines: no sheet of a machine"),
         ({"webs": [["name", None], ["a", 3]]}, "webs!B2: a value without a heading"),
@@ -89,10 +89,10 @@ def test_where_a_field_stands_or_is_missing() -> None:
         ({"throws": [["name"], ["a"], ["a"]], "rows": [["throw"], ["a"]]}, "rows, line 2: throw: the number of"),
     ],
 )
-def test_what_says_nothing_of_a_machine_is_named(sheets: Sheets, said: str) -> None:
+def test_what_says_nothing_of_a_machine_is_named(sheets: Sheets, text: str) -> None:
     with pytest.raises(Misplaced) as refused:
         read(sheets)
-    assert any(line.startswith(said) for line in refused.value.lines), refused.value.lines
+    assert any(line.startswith(text) for line in refused.value.lines), refused.value.lines
 
 
 def test_the_example_of_plates_comes_back() -> None:
@@ -115,8 +115,8 @@ def test_the_example_of_plates_comes_back() -> None:
 def test_rows_stand_on_throws_by_name(names: tuple[str | None, ...], cells: tuple[Any, ...], places: list[int]) -> None:
     throws = [["name", "position_m"], *([name, 0] for name in names)]
     sheets: Sheets = {"throws": throws, "rows": [["throw", "name"], *([cell, str(cell)] for cell in cells)]}
-    found = read(sheets).body["machine"]["throws"]
-    assert [each["rows"] for each in found] == [[{"name": str(cells[places.index(at)])}] for at in range(len(names))]
+    cranks = read(sheets).body["machine"]["throws"]
+    assert [crank["rows"] for crank in cranks] == [[{"name": str(cells[places.index(at)])}] for at in range(len(names))]
 
 
 def test_rows_of_a_machine_name_their_throws() -> None:
@@ -139,18 +139,18 @@ def test_the_empty_workbook_holds_heads_that_the_schema_has() -> None:
 
 def _with(heads: Any) -> dict[str, Any]:
     """A thing that has all of these fields, none of them with a value."""
-    made: dict[str, Any] = {}
+    fields: dict[str, Any] = {}
     for head in heads:
         *around, last = head.split(".")
-        place = made
+        place = fields
         for name in around:
             place = place.setdefault(name, {})
         place[last] = "no value of any field"
-    return made
+    return fields
 
 
 def _unknown(machine: dict[str, Any]) -> list[Any]:
     """Fields that the schema does not have."""
     with pytest.raises(ValidationError) as refused:
         OptimizeRequest.model_validate({"machine": machine})
-    return [one["loc"][-1] for one in refused.value.errors() if one["type"] == "extra_forbidden"]
+    return [error["loc"][-1] for error in refused.value.errors() if error["type"] == "extra_forbidden"]

@@ -23,8 +23,8 @@ chosen = machine | {"catalogue": {"masses_kg": [1.5, 3], "angle_step_deg": 30}}
 ends = [{"name": name, "changes": [{"path": "/machine/speed_rpm", "value": band[name]}]} for name in band]
 
 
-def near(found, expected, size=fast):
-    assert abs(found - expected) < 2e-6 * size, (found, expected)
+def near(value, expected, size=fast):
+    assert abs(value - expected) < 2e-6 * size, (value, expected)
 
 
 with TestClient(create_app(Settings(), warm=False)) as client:
@@ -33,33 +33,33 @@ with TestClient(create_app(Settings(), warm=False)) as client:
         body = {"machine": machine, **more}
         answer = client.post("/v1/optimize", json=body)
         assert answer.status_code == 200, answer.text
-        found = answer.json()
-        assert found["status"] == status, found
-        claims = client.post("/v1/verify", json={"request": body, "answer": found}).json()
+        document = answer.json()
+        assert document["status"] == status, document
+        claims = client.post("/v1/verify", json={"request": body, "answer": document}).json()
         assert claims["verdict"] != "broken", claims
-        return found, claims["not_covered"]
+        return document, claims["not_covered"]
 
     def refused(path, body, pointer):
         answer = client.post(path, json=body)
         assert (answer.status_code, answer.json()["errors"][0]["pointer"]) == (422, pointer), answer.text
 
     # analytic: the largest force is that of the highest speed
-    found, missed = ask(machine, speed_band=band)
-    near(found["worst_case"]["objective"], 0.6 * fast)
-    near(found["certificate"]["objective"], 0.6 * fast)
-    near(found["price_of_robustness"]["nominal"], 0.6 * (20 * pi) ** 2)
+    optimum, missed = ask(machine, speed_band=band)
+    near(optimum["worst_case"]["objective"], 0.6 * fast)
+    near(optimum["certificate"]["objective"], 0.6 * fast)
+    near(optimum["price_of_robustness"]["nominal"], 0.6 * (20 * pi) ** 2)
     assert not missed, missed
-    rows = {row["name"]: row["value"] for row in found["certificate"]["multipliers"]["objective"]["rows"]}
+    rows = {row["name"]: row["value"] for row in optimum["certificate"]["multipliers"]["objective"]["rows"]}
     near(rows["sum in speed_band highest_rpm"], 1.0, 1.0)
     # analytic: 0.3 of 1 kg m are chosen
-    found, _ = ask(chosen, speed_band=band)
-    near(found["worst_case"]["objective"], 0.7 * fast)
+    optimum, _ = ask(chosen, speed_band=band)
+    near(optimum["worst_case"]["objective"], 0.7 * fast)
     # analytic: what is off adds 0.001 kg m
-    found, _ = ask(machine, speed_band=band, tolerances={"unbalance_kg_m": 0.001})
-    near(found["worst_case"]["objective"], 0.601 * fast)
+    optimum, _ = ask(machine, speed_band=band, tolerances={"unbalance_kg_m": 0.001})
+    near(optimum["worst_case"]["objective"], 0.601 * fast)
     # analytic: the slow end keeps a ceiling that the fast end cannot
-    found, _ = ask(machine, "infeasible", speed_band=band, objective={"force_ceiling_N": 0.5 * fast})
-    why = found["infeasibility"]
+    optimum, _ = ask(machine, "infeasible", speed_band=band, objective={"force_ceiling_N": 0.5 * fast})
+    why = optimum["infeasibility"]
     assert why["scenarios"] == ["speed_band highest_rpm"], why
     near(why["smallest_force_N"], 0.6 * fast)
     # metamorphic: whatever is asked for, it is two scenarios
@@ -70,11 +70,11 @@ with TestClient(create_app(Settings(), warm=False)) as client:
         {"objective": {"priorities": [{"goal": "external", "allowance": 0.1}, {"goal": "mass"}]}},
     ):
         both = ({"speed_band": band}, {"scenarios": ends})
-        near(*(ask(piston, **one, **more)[0]["worst_case"]["objective"] for one in both), 3 * fast)
+        near(*(ask(piston, **fields, **more)[0]["worst_case"]["objective"] for fields in both), 3 * fast)
     # beside scenarios it is two more cases, and no two have one name
     three = [{"name": "faster still", "changes": [{"path": "/machine/speed_rpm", "value": 1200}]}]
-    found, _ = ask(machine, speed_band=band, scenarios=three)
-    near(found["worst_case"]["objective"], 0.6 * (40 * pi) ** 2, 2 * fast)
+    optimum, _ = ask(machine, speed_band=band, scenarios=three)
+    near(optimum["worst_case"]["objective"], 0.6 * (40 * pi) ** 2, 2 * fast)
     taken = [three[0] | {"name": "speed_band lowest_rpm"}]
     refused("/v1/optimize", {"machine": machine, "speed_band": band, "scenarios": taken}, "/speed_band")
     refused("/v1/optimize", {"machine": machine, "speed_band": band | {"lowest_rpm": 900}}, "/speed_band/highest_rpm")
@@ -102,5 +102,5 @@ with TestClient(create_app(Settings(), warm=False)) as client:
 # a row of a sweep has the largest force of its band, whatever the speed of its design
 axis = {"path": "/machine/speed_rpm", "values": [500, 600]}
 sent = SweepRequest.model_validate({"base": {"machine": machine, "speed_band": band}, "axes": [axis]})
-for one in run_chunk(sent.model_dump_json().encode(), 0, 2).to_pylist():
-    near(one["worst_case_force_peak_N"], 0.6 * fast)
+for entry in run_chunk(sent.model_dump_json().encode(), 0, 2).to_pylist():
+    near(entry["worst_case_force_peak_N"], 0.6 * fast)

@@ -28,7 +28,7 @@ webs = [
 bearings = [{"name": name, "position_m": where} for name, where in (("l", -0.6), ("r", 0.6))]
 machine = {"kind": "reciprocating", "speed_rpm": 600, "throws": throws, "webs": webs, "bearings": bearings}
 #: the heaviest is beyond the limit of its web
-options = [[None, *(one for one in own if one["mass_kg"] <= 14.5)] for own in castings]
+options = [[None, *(counterweight for counterweight in own if counterweight["mass_kg"] <= 14.5)] for own in castings]
 
 with TestClient(create_app(Settings(), warm=False)) as client:
 
@@ -39,63 +39,72 @@ with TestClient(create_app(Settings(), warm=False)) as client:
 
     def refused(path, body, pointer):
         problems = post(path, body, 422)["errors"]
-        assert pointer in [one["pointer"] for one in problems], problems
+        assert pointer in [problem["pointer"] for problem in problems], problems
 
     def ask(machine, **more):
         body = {"machine": machine, "accuracy": {"time_limit_s": 30}, **more}
-        found = post("/v1/optimize", body)
-        assert found["status"] == "optimal", found
-        claims = post("/v1/verify", {"request": body, "answer": found})
+        response = post("/v1/optimize", body)
+        assert response["status"] == "optimal", response
+        claims = post("/v1/verify", {"request": body, "answer": response})
         assert claims["verdict"] != "broken", claims
-        return found
+        return response
 
-    def objective(found):
-        return found["certificate"]["objective"]
+    def objective(answer):
+        return answer["certificate"]["objective"]
 
     def by_hand(machine, **more):
         """Answers with every set of castings fitted."""
         for some in product(*options):
             fixed = [
                 {name: value for name, value in web.items() if name not in ("castings", "max_mass_kg")}
-                | {"fixed": one or {"mass_kg": 0, "angle_deg": 0}}
-                for web, one in zip(machine["webs"], some, strict=True)
+                | {"fixed": table or {"mass_kg": 0, "angle_deg": 0}}
+                for web, table in zip(machine["webs"], some, strict=True)
             ]
             yield some, post("/v1/optimize", {"machine": machine | {"webs": fixed}, **more})
 
     # independent: every set of castings, each fitted by hand
-    found, every = ask(machine), list(by_hand(machine))
-    least = min(objective(each) for _, each in every)
-    assert abs(objective(found) - least) < 1e-9 * least, (objective(found), least)
-    for fitted, own in zip(found["counterweights"], castings, strict=True):
+    optimum, every = ask(machine), list(by_hand(machine))
+    least = min(objective(value) for _, value in every)
+    assert abs(objective(optimum) - least) < 1e-9 * least, (objective(optimum), least)
+    for fitted, own in zip(optimum["counterweights"], castings, strict=True):
         assert fitted["mass_kg"] == 0 or {"mass_kg": fitted["mass_kg"], "angle_deg": fitted["angle_deg"]} in own, fitted
-    peak = found["residual"]["after"]["moment"]["peak_Nm"]
+    peak = optimum["residual"]["after"]["moment"]["peak_Nm"]
     for goal in (
         {"orders": "all"},
         {"bearing_weight": 1},
         {"moment_weight": 0, "moment_ceiling_Nm": 1.02 * peak},
     ):
-        least = min(objective(each) for _, each in by_hand(machine, objective=goal) if each["status"] != "infeasible")
+        least = min(
+            objective(entry) for _, entry in by_hand(machine, objective=goal) if entry["status"] != "infeasible"
+        )
         reached = objective(ask(machine, objective=goal))
         assert abs(reached - least) < 2e-6 * least, (goal, reached, least)
-    light = [objective(each) for some, each in every if sum(one["mass_kg"] for one in some if one) <= 18]
+    light = [
+        objective(value)
+        for some, value in every
+        if sum(counterweight["mass_kg"] for counterweight in some if counterweight) <= 18
+    ]
     least, reached = min(light), objective(ask(machine | {"max_total_mass_kg": 18}))
     assert abs(reached - least) < 1e-9 * least, (reached, least)
     faster = [{"name": "faster", "changes": [{"path": "/machine/speed_rpm", "value": 700}]}]
     for more in ({"scenarios": faster}, {"tolerances": {"unbalance_kg_m": 0.01}}):
-        least = min(each["worst_case"]["objective"] for _, each in by_hand(machine, **more))
+        least = min(entry["worst_case"]["objective"] for _, entry in by_hand(machine, **more))
         reached = ask(machine, **more)["worst_case"]["objective"]
         assert abs(reached - least) < 2e-6 * least, (more, reached, least)
-    most = objective(found) + 0.3 * found["certificate"]["objective_without_counterweights"]
-    fewest = min(sum(one is not None for one in some) for some, each in every if objective(each) <= most)
+    most = objective(optimum) + 0.3 * optimum["certificate"]["objective_without_counterweights"]
+    fewest = min(sum(value is not None for value in some) for some, value in every if objective(value) <= most)
     few = ask(machine, objective={"priorities": [{"goal": "external", "allowance": 0.3}, {"goal": "pieces"}]})
-    assert sum(one["mass_kg"] > 0 for one in few["counterweights"]) == fewest, (fewest, few["counterweights"])
+    assert sum(counterweight["mass_kg"] > 0 for counterweight in few["counterweights"]) == fewest, (
+        fewest,
+        few["counterweights"],
+    )
 
     # equal castings: in the same places on their own cranks
-    turned = [one | {"angle_deg": one["angle_deg"] + 90} for one in castings[0]]
+    turned = [table | {"angle_deg": table["angle_deg"] + 90} for table in castings[0]]
     groups = [{"name": "g", "webs": ["a", "b"]}]
     alike = machine | {"webs": [webs[0], webs[1] | {"castings": turned}], "web_groups": groups}
-    one, other = ask(alike)["counterweights"]
-    assert one["mass_kg"] == other["mass_kg"], (one, other)
+    first, second = ask(alike)["counterweights"]
+    assert first["mass_kg"] == second["mass_kg"], (first, second)
     refused("/v1/optimize", {"machine": machine | {"web_groups": groups}}, "/machine/web_groups/0/webs/1")
 
     # studies
@@ -129,5 +138,5 @@ axis = {"path": "/machine/speed_rpm", "values": [300, 600]}
 request = SweepRequest.model_validate({"base": {"machine": machine}, "axes": [axis]})
 slow, fast = run_chunk(request.model_dump_json().encode(), 0, 2).to_pylist()
 # analytic: with the square of the speed
-assert abs(fast["objective"] - objective(found)) < 1e-9 * objective(found), fast
-assert abs(slow["objective"] - objective(found) / 4) < 1e-9 * objective(found), slow
+assert abs(fast["objective"] - objective(optimum)) < 1e-9 * objective(optimum), fast
+assert abs(slow["objective"] - objective(optimum) / 4) < 1e-9 * objective(optimum), slow

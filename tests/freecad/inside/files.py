@@ -20,28 +20,28 @@ def main():
     service = service_at(os.environ["URL"])
     balance(machine, service)
     folder = Path(os.environ["FOLDER"]) / "out"
-    found = {"files": [path.name for path in export(machine, folder, service)]}
+    texts = {"files": [path.name for path in export(machine, folder, service)]}
 
     weights = list(weight_moments(machine).values())
-    found["weights"] = told(sum(weights[1:], weights[0]))
+    texts["weights"] = inertia_values(sum(weights[1:], weights[0]))
     # drawn by the service, in the shaft's frame, read by FreeCAD
-    found["of the service"] = told(moments(read(folder / "counterweights.step"), 7850.0))
+    texts["of the service"] = inertia_values(moments(read(folder / "counterweights.step"), 7850.0))
     shaft = list(shaft_moments(machine).values())
-    found["masses"] = [one.mass_kg for one in [*shaft, *weights]]
+    texts["masses"] = [weight.mass_kg for weight in [*shaft, *weights]]
     balanced = read(folder / "balanced.step")
-    found["masses read back"] = [solid.Volume * 7850e-9 for solid in balanced.Solids]
+    texts["masses read back"] = [solid.Volume * 7850e-9 for solid in balanced.Solids]
     # in the document's coordinates, as the shaft was imported
-    drawn = [one.Shape for one in [*machine.Shaft, *machine.Counterweights]]
-    found["centre apart mm"] = (centre(drawn) - centre([balanced])).Length
+    drawn = [counterweight.Shape for counterweight in [*machine.Shaft, *machine.Counterweights]]
+    texts["centre apart mm"] = (centre(drawn) - centre([balanced])).Length
 
     machine.Counterweights[0].AskedAngle = machine.Counterweights[0].AskedAngle.Value + 1.0
     document.recompute()
     try:
         export(machine, folder / "wrong", service)
     except Wrong as wrong:
-        found["refused"] = wrong.lines
-    found["nothing written"] = not (folder / "wrong").exists()
-    return found
+        texts["refused"] = wrong.lines
+    texts["nothing written"] = not (folder / "wrong").exists()
+    return texts
 
 
 def read(path):
@@ -50,9 +50,9 @@ def read(path):
     return shape
 
 
-def told(one):
-    parts = one.static_kg_m, one.axial_kg_m2
-    return [one.mass_kg, *(value for part in parts for value in (part.real, part.imag))]
+def inertia_values(counterweight):
+    parts = counterweight.static_kg_m, counterweight.axial_kg_m2
+    return [counterweight.mass_kg, *(value for part in parts for value in (part.real, part.imag))]
 
 
 def centre(shapes):

@@ -52,8 +52,12 @@ def main():
         "request": machine.Request,
         "answer": machine.Answer,
         "solids": {
-            one.Web: {"mass_kg": one.Mass, "unbalance_kg_m": one.Unbalance, "half_angle_deg": one.HalfAngle.Value}
-            for one in machine.Counterweights
+            counterweight.Web: {
+                "mass_kg": counterweight.Mass,
+                "unbalance_kg_m": counterweight.Unbalance,
+                "half_angle_deg": counterweight.HalfAngle.Value,
+            }
+            for counterweight in machine.Counterweights
         },
         "seconds": time.process_time() - begun,
     }

@@ -12,47 +12,47 @@ def main():
     document = App.newDocument("shaft")
     machine = machine_of("native", document)
     balance(machine, service_at(os.environ["URL"]))
-    found = {"as drawn": told(machine)}
+    texts = {"as drawn": status_of(machine)}
     first = machine.Counterweights[0]
 
-    def each(name, change):
+    def cases(name, change):
         """Change every counterweight; the change."""
-        return [(one, name, change(getattr(one, name))) for one in machine.Counterweights]
+        return [(counterweight, name, change(getattr(counterweight, name))) for counterweight in machine.Counterweights]
 
     mutations = {
         "turned by 0.1 degrees": [(first, "AskedAngle", first.AskedAngle.Value + 0.1)],
         "moved by 1 mm": [(first, "Position", first.Position.Value + 1.0)],
-        "mirrored": each("AskedAngle", lambda angle: 180.0 - angle.Value),
-        "cast iron": each("Density", lambda density: 7200.0),
-        "aluminium": each("Density", lambda density: 2700.0),
+        "mirrored": cases("AskedAngle", lambda angle: 180.0 - angle.Value),
+        "cast iron": cases("Density", lambda density: 7200.0),
+        "aluminium": cases("Density", lambda density: 2700.0),
         "a smaller pin": [(document.Parameters, "B2", "=70 mm")],
     }
     for name, changes in mutations.items():
-        before = [(one, what, value_of(one, what)) for one, what, _ in changes]
+        before = [(value, what, value_of(value, what)) for value, what, _ in changes]
         apply(document, changes)
-        found[name] = told(machine)
+        texts[name] = status_of(machine)
         apply(document, before)
-    found["as before"] = told(machine)
-    return found
+    texts["as before"] = status_of(machine)
+    return texts
 
 
-def value_of(one, name):
-    if hasattr(one, "getContents"):
-        return one.getContents(name)
-    value = getattr(one, name)
+def value_of(subject, name):
+    if hasattr(subject, "getContents"):
+        return subject.getContents(name)
+    value = getattr(subject, name)
     return getattr(value, "Value", value)
 
 
 def apply(document, changes):
-    for one, name, value in changes:
-        if hasattr(one, "getContents"):
-            one.set(name, value)
+    for entry, name, value in changes:
+        if hasattr(entry, "getContents"):
+            entry.set(name, value)
         else:
-            setattr(one, name, value)
+            setattr(entry, name, value)
     document.recompute()
 
 
-def told(machine):
+def status_of(machine):
     verdict = verify(machine)
-    failed = [one.Web for one in machine.Counterweights if "Invalid" in one.State]
+    failed = [counterweight.Web for counterweight in machine.Counterweights if "Invalid" in counterweight.State]
     return {"worst": verdict.worst, "held": verdict.held, "status": machine.Status, "failed": failed}

@@ -11,7 +11,7 @@ from loop import machine_of
 
 
 def main():
-    found = {}
+    fields = {}
     for kind in ("native", "imported"):
         document = App.newDocument("shaft")
         machine = machine_of(kind, document)
@@ -21,11 +21,11 @@ def main():
         answer = ask_shaft(service, listed(machine.Shaft, None, machine.Frame).question)
         # without the frame it finds the same one
         alone = ask_shaft(service, listed(machine.Shaft).question)
-        found[kind] = {
+        fields[kind] = {
             "own": [total.mass_kg, total.static_kg_m.real, total.static_kg_m.imag],
             "own couple": [total.axial_kg_m2.real, total.axial_kg_m2.imag],
             "answer": answer,
             "alone": alone,
         }
         App.closeDocument(document.Name)
-    return found
+    return fields

@@ -27,16 +27,16 @@ def native(document):
     bodies = []
     for low, high, kind in stretches():
         if kind == "web":
-            one = document.addObject("Part::Feature", "Web")
-            one.Shape = web(low, high, 180.0 if low < 0 else 0.0)
+            feature = document.addObject("Part::Feature", "Web")
+            feature.Shape = web(low, high, 180.0 if low < 0 else 0.0)
         else:
-            one = document.addObject("Part::Cylinder", kind.capitalize())
-            one.Radius, one.Height, one.Placement.Base = JOURNAL, high - low, App.Vector(0, 0, low)
+            feature = document.addObject("Part::Cylinder", kind.capitalize())
+            feature.Radius, feature.Height, feature.Placement.Base = JOURNAL, high - low, App.Vector(0, 0, low)
             if kind == "pin":
-                one.setExpression("Radius", "Parameters.pin_radius")
+                feature.setExpression("Radius", "Parameters.pin_radius")
                 sign = "-" if low < 0 else ""
-                one.setExpression("Placement.Base.x", f"{sign}Parameters.crank_radius")
-        bodies.append(one)
+                feature.setExpression("Placement.Base.x", f"{sign}Parameters.crank_radius")
+        bodies.append(feature)
     document.recompute()
     return bodies
 
@@ -96,6 +96,6 @@ def web(low, high, angle_deg):
     """An oblong plate from the axis to the pin."""
     across = Part.makeBox(RADIUS, 2 * WEB_END, high - low, App.Vector(0, -WEB_END, low))
     ends = [Part.makeCylinder(WEB_END, high - low, App.Vector(x, 0, low)) for x in (0.0, RADIUS)]
-    one = ends[0].multiFuse([ends[1], across]).removeSplitter()
-    one.rotate(App.Vector(), App.Vector(0, 0, 1), angle_deg)
-    return one
+    value = ends[0].multiFuse([ends[1], across]).removeSplitter()
+    value.rotate(App.Vector(), App.Vector(0, 0, 1), angle_deg)
+    return value

@@ -84,8 +84,8 @@ def pieces(web=oblong, bar=round_bar):
 
 
 def solid(web=oblong, bar=round_bar):
-    first, *others = pieces(web, bar)
-    return first.multiFuse(others).removeSplitter()
+    first, *segments = pieces(web, bar)
+    return first.multiFuse(segments).removeSplitter()
 
 
 def filleted():
@@ -113,8 +113,8 @@ def split():
     def bar(kind, low, high, crank):
         if kind == "pin" and crank == CRANKS[1]:
             middle = (low + high) / 2
-            other = Part.makeCylinder(PIN, high - middle, at(crank + 30.0, middle))
-            return Part.makeCylinder(PIN, middle - low, at(crank, low)).fuse(other)
+            cylinder = Part.makeCylinder(PIN, high - middle, at(crank + 30.0, middle))
+            return Part.makeCylinder(PIN, middle - low, at(crank, low)).fuse(cylinder)
         return round_bar(kind, low, high, crank)
 
     return solid(bar=bar)
@@ -179,7 +179,9 @@ def imported(shape, document, unit="MILLI"):
         path.write_text(f"{head}{more}ENDSEC;{tail}")
     Part.insert(str(path), document.Name)
     document.recompute()
-    return [one for one in document.Objects if getattr(one, "Shape", None) is not None]
+    return [
+        document_object for document_object in document.Objects if getattr(document_object, "Shape", None) is not None
+    ]
 
 
 def smaller(shape):
@@ -190,7 +192,7 @@ def smaller(shape):
 VARIANTS = {
     "as drawn": lambda _: [solid()],
     "fillets": lambda _: [filleted()],
-    "without webs": lambda _: [one for one, (kind, *_) in zip(pieces(), stretches(), strict=True) if kind != "web"],
+    "without webs": lambda _: [piece for piece, (kind, *_) in zip(pieces(), stretches(), strict=True) if kind != "web"],
     "inches read as mm": lambda _: [smaller(solid())],
     "density 7.85": lambda _: [solid()],
     "flat-sided webs": lambda _: [solid(flat)],
@@ -213,10 +215,10 @@ VARIANTS = {
 
 def main():
     service = service_at(os.environ["URL"])
-    found = {name: tried(name, service) for name in os.environ["VARIANTS"].split(";")}
+    fields = {name: tried(name, service) for name in os.environ["VARIANTS"].split(";")}
     if os.environ["FORCED"]:
-        found["forced"] = tried(os.environ["FORCED"], service, force=True)
-    return {"drawn": sorted(VARIANTS), **found}
+        fields["forced"] = tried(os.environ["FORCED"], service, force=True)
+    return {"drawn": sorted(VARIANTS), **fields}
 
 
 def tried(name, service, force=False):
@@ -239,20 +241,20 @@ def balanced(document, name, bodies, service, force):
     row = {"axis_deg": 0, "reciprocating_mass_kg": 20.0, "connecting_rod": {"length_m": 0.4, "mass_kg": 10.0}}
     throw = {"rows": [row], **({"crank_radius_m": 0.1} if name == "another crank radius" else {})}
     throws = [throw] * (4 if name == "split pins" else 3)
-    said = {"machine": {"speed_rpm": 1000, "throws": throws}}
+    body = {"machine": {"speed_rpm": 1000, "throws": throws}}
     density = 7.85 if name == "density 7.85" else STEEL
-    found = {}
+    doubts = {}
     try:
-        machine = read_shaft(document, bodies, service, [density] * len(bodies), description=said, force=force)
-        found["doubts"] = list(machine.Doubts)
+        machine = read_shaft(document, bodies, service, [density] * len(bodies), description=body, force=force)
+        doubts["doubts"] = list(machine.Doubts)
         heads, *webs = table_of(next(sheet for sheet in machine.Tables if sheet.Label == "webs"))
-        found["webs"] = [dict(zip(heads, web, strict=True)) for web in webs]
+        doubts["webs"] = [dict(zip(heads, web, strict=True)) for web in webs]
         heads, *cranks = table_of(next(sheet for sheet in machine.Tables if sheet.Label == "throws"))
-        found["throws"] = [dict(zip(heads, crank, strict=True)) for crank in cranks]
-        found["said"] = shaft_words(machine)
+        doubts["throws"] = [dict(zip(heads, crank, strict=True)) for crank in cranks]
+        doubts["said"] = shaft_words(machine)
         verdict = balance(machine, service, force)
-        found["status"] = machine.Status
-        found["held"], found["words"] = verdict.held, verdict.words()
+        doubts["status"] = machine.Status
+        doubts["held"], doubts["words"] = verdict.held, verdict.words()
     except Wrong as wrong:
-        found["refused"] = wrong.lines
-    return found
+        doubts["refused"] = wrong.lines
+    return doubts

@@ -21,23 +21,23 @@ def main():
     document = App.newDocument("shaft")
     machine = machine_of("imported", document)
     balance(machine, service_at(os.environ["URL"]))
-    found = {"bare": clearance(machine)}
+    clearances = {"bare": clearance(machine)}
 
     for name, bore in (("roomy", 380.0), ("near", 363.0), ("tight", 350.0)):
         machine.Obstacles = [case(document, machine, name, bore)]
-        found[name] = clearance(machine)
+        clearances[name] = clearance(machine)
     machine.Obstacles = []
 
     for name, width in (("slim", 120.0), ("wide", 150.0)):
         machine_rods(document, machine, name, width)
-        found[f"{name} rods"] = clearance(machine)
+        clearances[f"{name} rods"] = clearance(machine)
     rows = {sheet.Label: sheet for sheet in machine.Tables}["rows"]
     rows.set("H2", "'no such rod")
     document.recompute()
-    found["no rod"] = refused(machine)
+    clearances["no rod"] = refused(machine)
     rows.set("H2", "'tight")
     document.recompute()
-    found["not a rod"] = refused(machine)
+    clearances["not a rod"] = refused(machine)
     rows.set("H2", "")
     rows.set("H3", "")
 
@@ -45,8 +45,8 @@ def main():
     first = machine.Counterweights[0]
     first.AskedAngle = first.AskedAngle.Value + 180.0
     document.recompute()
-    found["turned"] = clearance(machine)
-    return found
+    clearances["turned"] = clearance(machine)
+    return clearances
 
 
 def refused(machine):

@@ -18,7 +18,7 @@ def main():
     App.ParamGet("User parameter:BaseApp/Preferences/Mod/Counterweight").SetString("Url", os.environ["URL"])
     document = App.newDocument("shaft")
     bodies = shafts.part_design(document)
-    found = {
+    texts = {
         "workbench": Gui.activeWorkbench().name(),
         "commands": sorted(name for name in Gui.listCommands() if name.startswith("Counterweight_")),
     }
@@ -28,31 +28,31 @@ def main():
     wait(lambda: document.getObject("Machine") is not None)
     machine = document.getObject("Machine")
     boxes = Gui.getMainWindow().findChildren(QtGui.QCheckBox)
-    found["pins"] = [box.text() for box in boxes if "radius" in box.text()]
-    found["ticked"] = [box.isChecked() for box in boxes if "radius" in box.text()]
-    found["shaft"] = labels()
+    texts["pins"] = [box.text() for box in boxes if "radius" in box.text()]
+    texts["ticked"] = [box.isChecked() for box in boxes if "radius" in box.text()]
+    texts["shaft"] = labels()
     grab("shaft.png")
     Gui.runCommand("Counterweight_Balance")
-    found["without a confirmation"] = report()
+    texts["without a confirmation"] = report()
     press("OK")
-    found["confirmed"] = machine.Confirmed
+    texts["confirmed"] = machine.Confirmed
     Gui.runCommand("Counterweight_Balance")
     wait(lambda: "this field is required" in report())
-    found["without a speed"] = report()
+    texts["without a speed"] = report()
     complete(machine)
     document.recompute()
     Gui.runCommand("Counterweight_Balance")
     wait(lambda: machine.Answer)
     Gui.runCommand("Counterweight_Verify")
-    found["verdict"] = labels()
-    icons = (Gui.Command.get(name).getInfo()["pixmap"] for name in found["commands"])
-    found["icons"] = sorted(os.path.basename(icon) for icon in icons)
+    texts["verdict"] = labels()
+    icons = (Gui.Command.get(name).getInfo()["pixmap"] for name in texts["commands"])
+    texts["icons"] = sorted(os.path.basename(icon) for icon in icons)
     Gui.runCommand("Counterweight_Clearance")
-    found["report"] = report()
-    found["status"] = machine.Status
-    for one in document.Objects:
-        if one.TypeId in ("App::Origin", "Spreadsheet::Sheet"):
-            one.ViewObject.Visibility = False
+    texts["report"] = report()
+    texts["status"] = machine.Status
+    for document_object in document.Objects:
+        if document_object.TypeId in ("App::Origin", "Spreadsheet::Sheet"):
+            document_object.ViewObject.Visibility = False
     Gui.Selection.clearSelection()
     view = Gui.activeDocument().activeView()
     view.viewIsometric()
@@ -60,7 +60,7 @@ def main():
     wait(lambda: True)
     view.saveImage(os.path.join(os.environ["FOLDER"], "view.png"), 900, 700, "White")
     grab("window.png")
-    return found
+    return texts
 
 
 def labels():

@@ -17,7 +17,7 @@ def cases() -> Iterator[Case]:
     yield from _at_the_floor()
     yield from _at_the_reach()
     yield from _two()
-    yield from _others()
+    yield from _remaining()
 
 
 def _at_the_floor() -> Iterator[Case]:
@@ -129,7 +129,7 @@ def _two() -> Iterator[Case]:
             )
 
 
-def _others() -> Iterator[Case]:
+def _remaining() -> Iterator[Case]:
     yield case(
         "ceilings/no-webs-met",
         "ceilings that hold with nothing to choose",

@@ -10,7 +10,11 @@ _FILE = Path(__file__).with_name("found.json")
 
 
 def cases() -> Iterator[Case]:
-    for one in json.loads(_FILE.read_text()):
+    for entry in json.loads(_FILE.read_text()):
         yield Case(
-            f"found/{one['name']}", one["why"], one["body"], one.get("ordinary", False), one.get("peaks_unique", True)
+            f"found/{entry['name']}",
+            entry["why"],
+            entry["body"],
+            entry.get("ordinary", False),
+            entry.get("peaks_unique", True),
         )

@@ -30,8 +30,8 @@ def cases() -> Iterator[Case]:
         )
     for offset in (1e-9, 10.0):
         throws = _throws({"length_m": 0.5, "mass_kg": 7.0})
-        for one in throws:
-            one["rows"][0]["offset_m"] = offset
+        for crank in throws:
+            crank["rows"][0]["offset_m"] = offset
         yield case(
             f"rods/offset-{offset:g}",
             "a row beside its throw: its big end turns in the row's plane, not in that of the throw",

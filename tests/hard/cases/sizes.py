@@ -7,7 +7,7 @@ from tests.hard.cases.case import Case, case, four_webs, machine, row, scroll, s
 
 def cases() -> Iterator[Case]:
     yield from _across_machines()
-    yield from _in_one_machine()
+    yield from _in_single_machine()
     yield from _scrolls()
 
 
@@ -57,7 +57,7 @@ def _across_machines() -> Iterator[Case]:
         )
 
 
-def _in_one_machine() -> Iterator[Case]:
+def _in_single_machine() -> Iterator[Case]:
     wide = [1e-9, 1e6]
     for first, second in (wide, wide[::-1]):
         yield case(

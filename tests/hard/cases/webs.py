@@ -152,8 +152,8 @@ def _far_plane() -> Iterator[Case]:
         "webs/shaft-far-from-origin",
         "planes of 1e6 m plus decimetres: the arms lose six digits before anything is computed",
         machine(
-            [{**one, "position_m": 1e6 + one["position_m"]} for one in v_twin()],
-            [{**one, "position_m": 1e6 + one["position_m"]} for one in four_webs()],
+            [{**fields, "position_m": 1e6 + fields["position_m"]} for fields in v_twin()],
+            [{**four_web, "position_m": 1e6 + four_web["position_m"]} for four_web in four_webs()],
         ),
         ordinary=True,
     )

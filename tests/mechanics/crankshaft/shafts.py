@@ -27,11 +27,11 @@ class Drawing:
 
     def faces(self) -> list[Json]:
         """All plane and round faces, fillets by their points."""
-        found: list[Json] = []
+        cylinders: list[Json] = []
         for n, (low, high, kind) in enumerate(zip(ENDS[:-1], ENDS[1:], KINDS, strict=True)):
             angle = radians(0.0 if high < 0.0 else self.second_deg)
             if kind == "web":
-                found += oblong(low, high, angle) if self.webs else []
+                cylinders += oblong(low, high, angle) if self.webs else []
             else:
                 # a fillet at either end but those of the shaft
                 first = 0.0 if n == 0 or not self.webs else self.fillet
@@ -39,15 +39,15 @@ class Drawing:
                 offset = RADIUS if kind == "pin" else 0.0
                 centre = [offset * cos(angle), offset * sin(angle)]
                 radius = PIN if kind == "pin" else JOURNAL
-                found.append(cylinder(*centre, radius, low + first, high - last))
+                cylinders.append(cylinder(*centre, radius, low + first, high - last))
                 if n == 0 or not self.webs:
-                    found.append(plane(*centre, low, -1, pi * radius**2))
+                    cylinders.append(plane(*centre, low, -1, pi * radius**2))
                 if n == len(KINDS) - 1 or not self.webs:
-                    found.append(plane(*centre, high, 1, pi * radius**2))
+                    cylinders.append(plane(*centre, high, 1, pi * radius**2))
                 if self.fillet:
                     ring = [[centre[0] + radius + self.fillet, centre[1], z] for z in (low, high)]
-                    found.append({"type": "other", "points_m": ring})
-        return found
+                    cylinders.append({"type": "other", "points_m": ring})
+        return cylinders
 
 
 def cylinder(x: float, y: float, radius: float, low: float, high: float, **more: Any) -> Json:
@@ -69,37 +69,37 @@ def oblong(low: float, high: float, angle: float) -> list[Json]:
     """A plate with round ends about the axis and about the pin, and flat sides."""
     x, y = RADIUS * cos(angle), RADIUS * sin(angle)
     area = pi * HALF**2 + 2 * HALF * RADIUS
-    found = [plane(x / 2, y / 2, low, -1, area), plane(x / 2, y / 2, high, 1, area)]
+    planes = [plane(x / 2, y / 2, low, -1, area), plane(x / 2, y / 2, high, 1, area)]
     for sign, middle, at in ((-1.0, angle + pi, (0.0, 0.0)), (1.0, angle, (x, y))):
         arc = [(at[0] + HALF * cos(middle + turn), at[1] + HALF * sin(middle + turn)) for turn in (-pi / 2, 0, pi / 2)]
         points = [[*point, z] for point in arc for z in (low, high)]
-        found.append(cylinder(*at, HALF, low, high, angle_deg=180.0, points_m=points))
+        planes.append(cylinder(*at, HALF, low, high, angle_deg=180.0, points_m=points))
         side = [HALF * sin(angle) * -sign, HALF * cos(angle) * sign]
         normal = [-sign * sin(angle), sign * cos(angle), 0.0]
         corners = [[side[0], side[1], low], [side[0] + x, side[1] + y, high]]
         centre = [side[0] + x / 2, side[1] + y / 2, (low + high) / 2]
-        found.append({"type": "plane", "centre_m": centre, "normal": normal, "points_m": corners})
-    return found
+        planes.append({"type": "plane", "centre_m": centre, "normal": normal, "points_m": corners})
+    return planes
 
 
 def moved(face: Json, turn: np.ndarray, origin: np.ndarray, scale: float = 1.0) -> Json:  # type: ignore[type-arg]
     """A face turned (or mirrored) by a matrix, scaled and shifted."""
-    found = dict(face)
+    scales = dict(face)
     for name in ("centre_m",):
         if name in face:
-            found[name] = (scale * turn @ np.array(face[name]) + origin).tolist()
+            scales[name] = (scale * turn @ np.array(face[name]) + origin).tolist()
     for name in ("axis", "normal"):
         if name in face:
-            found[name] = (turn @ np.array(face[name], dtype=float)).tolist()
+            scales[name] = (turn @ np.array(face[name], dtype=float)).tolist()
     if "points_m" in face:
-        found["points_m"] = [(scale * turn @ np.array(one) + origin).tolist() for one in face["points_m"]]
+        scales["points_m"] = [(scale * turn @ np.array(point_m) + origin).tolist() for point_m in face["points_m"]]
     if "radius_m" in face:
-        found["radius_m"] = scale * face["radius_m"]
-        found["ends_m"] = [scale * one for one in face["ends_m"]]
+        scales["radius_m"] = scale * face["radius_m"]
+        scales["ends_m"] = [scale * end_m for end_m in face["ends_m"]]
     if "area_m2" in face:
-        found["area_m2"] = scale**2 * face["area_m2"]
-    return found
+        scales["area_m2"] = scale**2 * face["area_m2"]
+    return scales
 
 
-def distance(one: list[float], other: list[float]) -> float:
-    return hypot(*(a - b for a, b in zip(one, other, strict=True)))
+def distance(first: list[float], second: list[float]) -> float:
+    return hypot(*(a - b for a, b in zip(first, second, strict=True)))

@@ -32,8 +32,8 @@ def changed(number: int, **fields: Any) -> Json:
 
 def second_shaft(turn: np.ndarray | None = None, away: float = 0.0) -> Json:  # type: ignore[type-arg]
     place = np.array([away, 0.0, 0.0])
-    other = [moved(face, np.eye(3) if turn is None else turn, place, 0.9) for face in FACES]
-    return {"faces": [*FACES, *other]}
+    values = [moved(face, np.eye(3) if turn is None else turn, place, 0.9) for face in FACES]
+    return {"faces": [*FACES, *values]}
 
 
 TILT = np.array([[1, 0, 0], [0, cos(radians(20)), -sin(radians(20))], [0, sin(radians(20)), cos(radians(20))]])
@@ -42,9 +42,9 @@ SHEAR = [[1, 2, 0], [0, 1, 0], [0, 0, 1]]
 WRONG: dict[str, tuple[Json, str, str]] = {
     "nothing": ({}, "/faces", "list the faces of a shaft"),
     "no face": ({"faces": []}, "/faces", "list the faces of a shaft"),
-    "planes only": ({"faces": [one for one in FACES if one["type"] == "plane"]}, "/faces", "no outer cylinder"),
+    "planes only": ({"faces": [face for face in FACES if face["type"] == "plane"]}, "/faces", "no outer cylinder"),
     "bores only": (
-        {"faces": [{**one, "outer": False} for one in FACES if one["type"] == "cylinder"]},
+        {"faces": [{**face, "outer": False} for face in FACES if face["type"] == "cylinder"]},
         "/faces",
         "no outer cylinder",
     ),
@@ -104,7 +104,7 @@ def test_what_is_no_shaft_is_refused_at_its_face(client: TestClient, name: str) 
     body, pointer, words = WRONG[name]
     answer = client.post("/v1/shaft", json=body)
     assert answer.status_code == 422, answer.text[:500]
-    errors = {one["pointer"]: one["message"] for one in answer.json()["errors"]}
+    errors = {error["pointer"]: error["message"] for error in answer.json()["errors"]}
     assert pointer in errors, errors
     assert words in errors[pointer]
 
@@ -114,7 +114,7 @@ def test_numbers_that_are_none_are_refused_at_their_face(client: TestClient, tex
     body = json.dumps(changed(PIN, radius_m="X")).replace('"X"', text)
     answer = client.post("/v1/shaft", content=body, headers={"Content-Type": "application/json"})
     assert answer.status_code == 422
-    assert [one["pointer"] for one in answer.json()["errors"]] == [f"/faces/{PIN}/radius_m"]
+    assert [error["pointer"] for error in answer.json()["errors"]] == [f"/faces/{PIN}/radius_m"]
 
 
 def test_five_thousand_faces_at_one_height_are_read() -> None:

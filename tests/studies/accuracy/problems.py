@@ -46,21 +46,23 @@ def random_task(
     webs = int(rng.integers(1, 7))
     limits, responses = random_limits(rng, webs, sectors, budget), random_responses(rng, webs)
     inside = random_point(rng, limits)
-    allowed = [(one, 1.05 * float(one.to(inside).peak)) for one in responses] if ceilings else []
+    allowed = [(response, 1.05 * float(response.to(inside).peak)) for response in responses] if ceilings else []
     return LadderProgram(
-        statement(combined([weighted_peak(one, 1.0, *weights) for one in responses], combine), allowed, limits),
+        statement(
+            combined([weighted_peak(response, 1.0, *weights) for response in responses], combine), allowed, limits
+        ),
         OverTheTurn(
-            tuple(WeightedResponse(one, 1.0, *weights) for one in responses),
+            tuple(WeightedResponse(response, 1.0, *weights) for response in responses),
             combine,
-            tuple((WeightedResponse(one, 1.0), most) for one, most in allowed),
+            tuple((WeightedResponse(response, 1.0), most) for response, most in allowed),
         ),
     )
 
 
 def body(name: str, **objective: Any) -> dict[str, Any]:
-    found: dict[str, Any] = json.loads(load(name))
-    found["objective"] = {**found.get("objective", {}), **objective}
-    return found
+    document: dict[str, Any] = json.loads(load(name))
+    document["objective"] = {**document.get("objective", {}), **objective}
+    return document
 
 
 def request(name: str, repeats: int = 1, **objective: Any) -> AccuracyRequest:

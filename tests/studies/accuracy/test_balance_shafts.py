@@ -46,7 +46,9 @@ def mixed(seed: int, combine: str, weights: tuple[float, float], sectors: bool, 
         statement(
             combined([weighted_peak(response, 1.0, *weights) for response in responses], combine), allowed, limits
         ),
-        OverTheTurn(tuple(peaks), combine, tuple((WeightedResponse(one, 1.0), most) for one, most in allowed)),
+        OverTheTurn(
+            tuple(peaks), combine, tuple((WeightedResponse(response, 1.0), most) for response, most in allowed)
+        ),
     )
 
 
@@ -75,11 +77,11 @@ def test_sampled_programs_bracket_the_optimum(angles: int, seed: int) -> None:
     """Analytic: P_n <= P* <= P(u_n) <= P_n / cos(pi/n), whichever way webs turn."""
     task = mixed(seed, "sum", (1.0, 1.0), False, False)
     best = reference(task)
-    found = solved(sampled(task.statement, task.turn, angles, 0.25, 5.0))
-    reached, slack = float(task.statement.objective(found.unbalance)), 1e-6 * rest(task)
-    assert found.claimed is not None
-    assert found.claimed <= best.objective + slack
-    assert reached * np.cos(np.pi / angles) <= found.claimed + slack
+    point = solved(sampled(task.statement, task.turn, angles, 0.25, 5.0))
+    reached, slack = float(task.statement.objective(point.unbalance)), 1e-6 * rest(task)
+    assert point.claimed is not None
+    assert point.claimed <= best.objective + slack
+    assert reached * np.cos(np.pi / angles) <= point.claimed + slack
 
 
 def test_webs_that_cannot_carry_anything_are_left_out_of_samples() -> None:
@@ -90,9 +92,9 @@ def test_webs_that_cannot_carry_anything_are_left_out_of_samples() -> None:
         assert peak.response.influence.shape == (webs.sum(),)
         against = peak.response.counter_influence
         assert against is None or against.shape == (webs.sum(),)
-    one, other = task.turn.peaks[0].response, task.turn.only(webs).peaks[0].response
+    response, second_response = task.turn.peaks[0].response, task.turn.only(webs).peaks[0].response
     u = np.full(webs.size, 0.3 - 0.1j) * webs
-    assert replace(one).to(u).counter == pytest.approx(complex(other.to(u[webs]).counter), rel=1e-14)
+    assert replace(response).to(u).counter == pytest.approx(complex(second_response.to(u[webs]).counter), rel=1e-14)
 
 
 def measured(machine: dict[str, Any], **more: Any) -> AccuracyAnswer:
@@ -101,11 +103,11 @@ def measured(machine: dict[str, Any], **more: Any) -> AccuracyAnswer:
 
 def test_every_method_finds_what_the_shaft_lacks() -> None:
     """Analytic: a shaft that carries 2 kg of 5 leaves 0.3 of the force, for every method."""
-    found = measured(TOO_SMALL)
-    assert (found.status, found.size.webs) == ("measured", 2)
-    assert found.reference is not None
-    assert found.reference.lower_bound == pytest.approx(0.3 * WHOLE, rel=1e-9)
-    for row in found.ladder:
+    answer = measured(TOO_SMALL)
+    assert (answer.status, answer.size.webs) == ("measured", 2)
+    assert answer.reference is not None
+    assert answer.reference.lower_bound == pytest.approx(0.3 * WHOLE, rel=1e-9)
+    for row in answer.ladder:
         assert row.skipped is None
         assert row.relative_error is not None
         assert row.certified_gap is not None
@@ -121,25 +123,25 @@ def test_every_method_finds_what_the_shaft_lacks() -> None:
 def test_the_ladder_stands_on_the_optimum_of_the_service(goal: dict[str, Any]) -> None:
     """Property: its bound is not above what the service reaches, and no lower than the gap."""
     body = {"machine": twin(balance_shafts=SHAFTS), "objective": goal}
-    found, best = measured(**body), optimize(body)
-    assert found.status == "measured"
-    assert found.reference is not None
+    measurement, best = measured(**body), optimize(body)
+    assert measurement.status == "measured"
+    assert measurement.reference is not None
     # a shaft at twice the speed could carry something, which is of no use to the first order
-    assert found.size.webs == 8
+    assert measurement.size.webs == 8
     # the gap that is asked of the service
-    near = 1e-6 * found.reference.objective_without_counterweights
-    assert best.certificate.objective == pytest.approx(found.reference.objective, abs=near)
-    assert found.reference.lower_bound <= best.certificate.objective * (1.0 + 1e-12)
-    assert all(row.certified_gap is None or row.certified_gap > -1e-12 for row in found.ladder)
+    near = 1e-6 * measurement.reference.objective_without_counterweights
+    assert best.certificate.objective == pytest.approx(measurement.reference.objective, abs=near)
+    assert measurement.reference.lower_bound <= best.certificate.objective * (1.0 + 1e-12)
+    assert all(row.certified_gap is None or row.certified_gap > -1e-12 for row in measurement.ladder)
 
 
 def test_groups_beside_shafts_have_a_ladder_of_masses() -> None:
     """Property: masses and numbers are of all shafts together, as the service answers them."""
     body = {"machine": twin(**ALIKE, balance_shafts=SHAFTS)}
-    found, best = measured(**body), optimize(body)
+    measurement, best = measured(**body), optimize(body)
     assert best.total_mass_kg is not None
     assert best.balance_shafts_mass_kg is not None
-    row = next(row for row in found.choices_ladder if row.method == "service")
+    row = next(row for row in measurement.choices_ladder if row.method == "service")
     assert row.total_mass_kg == pytest.approx(best.total_mass_kg + best.balance_shafts_mass_kg, rel=1e-3)
-    assert all(row.limits_kept for row in found.choices_ladder)
-    assert all(row.relative_error is not None and row.relative_error >= 0.0 for row in found.choices_ladder)
+    assert all(row.limits_kept for row in measurement.choices_ladder)
+    assert all(row.relative_error is not None and row.relative_error >= 0.0 for row in measurement.choices_ladder)

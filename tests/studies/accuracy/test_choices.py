@@ -85,10 +85,10 @@ def answered(rows: tuple[ChoiceRow, ...]) -> list[ChoiceRow]:
 def test_every_kind_has_rows_that_agree_with_the_service(kind: str) -> None:
     """Each row is what /v1/optimize answers to that gap or time (independent), and no bound is above a value."""
     machine = MADE[kind]()
-    found = measured(machine)
-    assert found.status == "measured"
-    assert found.ladder == ()
-    reference, rows = found.reference, found.choices_ladder
+    measurement = measured(machine)
+    assert measurement.status == "measured"
+    assert measurement.ladder == ()
+    reference, rows = measurement.reference, measurement.choices_ladder
     assert reference is not None
     assert reference.objective_of_any_mass is not None
     assert reference.lower_bound <= reference.objective
@@ -102,7 +102,7 @@ def test_every_kind_has_rows_that_agree_with_the_service(kind: str) -> None:
         assert row.objective == pytest.approx(answer.certificate.objective, rel=1e-12)
         assert row.lower_bound == pytest.approx(answer.certificate.lower_bound, rel=1e-12)
         assert row.total_mass_kg == pytest.approx(answer.total_mass_kg, rel=1e-12)
-        assert row.pieces == sum(1 for one in answer.counterweights if one.mass_kg > 0.0)
+        assert row.pieces == sum(1 for counterweight in answer.counterweights if counterweight.mass_kg > 0.0)
         assert row.certified_gap is not None
         assert row.certified_gap <= gap
     for row in answered(rows):
@@ -120,23 +120,23 @@ def test_the_reference_is_the_best_of_all_sets() -> None:
     """A catalogue of 19 options on each of two webs, by brute force (independent)."""
     machine = twin(**CHOSEN)
     machine["webs"] = machine["webs"][::3]
-    found = measured(machine)
-    assert found.reference is not None
+    answer = measured(machine)
+    assert answer.reference is not None
     lever, square = np.array([-0.4, 0.4]), (600 * np.pi / 30) ** 2
     options = [0.0, *(m * 0.15 * np.exp(1j * np.pi / 3 * n) for m in (3.0, 5.0, 8.0) for n in range(6))]
     crank, z = np.array([1.0, 1j]), np.array([-0.3, 0.3])
     turning, counter = 0.1 * (9.0 + 7.0) * crank, 0.1 * 7.0 * np.conj(crank)
     weight = 1.0 / (lever[1] - lever[0])
 
-    def value(one: complex, other: complex) -> float:
-        u = np.array([one, other * 1j])
+    def value(first: complex, second: complex) -> float:
+        u = np.array([first, second * 1j])
         force = abs(np.sum(turning) + np.sum(u)) + abs(np.sum(counter))
         moment = abs(np.sum(z * turning) + np.sum(lever * u)) + abs(np.sum(z * counter))
         return float(square * (force + weight * moment))
 
     best = min(value(*pair) for pair in itertools.product(options, repeat=2))
-    assert found.reference.objective == pytest.approx(best, rel=1e-9)
-    assert found.reference.lower_bound == pytest.approx(best, rel=1e-6)
+    assert answer.reference.objective == pytest.approx(best, rel=1e-9)
+    assert answer.reference.lower_bound == pytest.approx(best, rel=1e-6)
 
 
 def by_hand(machine: Machine) -> ChoiceRow:
@@ -152,8 +152,8 @@ def test_rounding_is_the_nearest_of_every_web() -> None:
         row for row in measured(machine, objective={"least_mass": False}).choices_ladder if row.method == "rounding"
     )
     mass = []
-    for one in free.counterweights:
-        u = one.mass_kg * np.exp(1j * np.radians(one.angle_deg))
+    for counterweight in free.counterweights:
+        u = counterweight.mass_kg * np.exp(1j * np.radians(counterweight.angle_deg))
         held = [0.0, *(m * np.exp(1j * np.pi / 4 * n) for m in (2.0, 4.0, 6.0, 8.0) for n in range(8))]
         mass.append(abs(min(held, key=lambda option: abs(u - option))))
     assert rounded.total_mass_kg == pytest.approx(sum(mass), rel=1e-9)
@@ -168,7 +168,7 @@ def test_the_longest_limit_is_that_of_the_request() -> None:
     """And a shorter one that closes the gap leaves nothing to longer ones."""
     rows = measured(twin(**CHOSEN), accuracy={"time_limit_s": 0.5}).choices_ladder
     settings = [row.setting for row in rows if row.setting.endswith(" s")]
-    assert settings == [f"{limit:g} s" for limit in (*(each for each in LIMITS_S if each < 0.5), 0.5)]
+    assert settings == [f"{limit:g} s" for limit in (*(limit_s for limit_s in LIMITS_S if limit_s < 0.5), 0.5)]
     assert rows[-2].skipped == "0.1 s sufficed"
 
 
@@ -182,10 +182,10 @@ def test_a_gap_that_is_not_reached_ends_the_gaps() -> None:
 
 
 def test_ceilings_that_no_choice_keeps() -> None:
-    found = measured(twin(**CHOSEN), objective={"force_ceiling_N": 1.0})
-    assert found.status == "infeasible"
-    assert found.choices_ladder == ()
-    assert found.reference is None
+    answer = measured(twin(**CHOSEN), objective={"force_ceiling_N": 1.0})
+    assert answer.status == "infeasible"
+    assert answer.choices_ladder == ()
+    assert answer.reference is None
 
 
 @pytest.mark.parametrize(
@@ -201,9 +201,9 @@ def test_nothing_to_choose(machine: Callable[[], Machine], status: str) -> None:
 
 def test_route_command_and_picture(post: Post) -> None:
     body = json.dumps({"machine": twin(**CHOSEN), "repeats": 1})
-    found = post("/v1/accuracy", body)
-    assert found.status_code == 200
-    answer = AccuracyAnswer.model_validate_json(found.content)
+    response = post("/v1/accuracy", body)
+    assert response.status_code == 200
+    answer = AccuracyAnswer.model_validate_json(response.content)
     assert [row.setting for row in answer.choices_ladder][-1] == "nearest"
     result = CliRunner().invoke(app, ["accuracy", "-"], input=body)
     assert result.exit_code == 0
@@ -224,6 +224,6 @@ def test_route_command_and_picture(post: Post) -> None:
     ],
 )  # fmt: skip
 def test_what_does_not_go_names_its_field(post: Post, changes: dict[str, Any], pointer: str) -> None:
-    found = post("/v1/accuracy", json.dumps({"machine": twin(**CHOSEN), "repeats": 1} | changes))
-    assert found.status_code == 422
-    assert pointer in [one["pointer"] for one in found.json()["errors"]]
+    response = post("/v1/accuracy", json.dumps({"machine": twin(**CHOSEN), "repeats": 1} | changes))
+    assert response.status_code == 422
+    assert pointer in [error["pointer"] for error in response.json()["errors"]]

@@ -34,11 +34,11 @@ def names(kind: str) -> list[str]:
     return re.findall(rf"<!-- {kind} (\S+) -->", TEXT)
 
 
-def agrees(shown: str, found: float | None) -> bool:
-    if shown == "-" or found is None:
-        return (shown == "-") == (found is None)
-    value = float(shown)
-    return max(value, found) < NOISE or 1.0 / FACTOR <= value / max(found, 1e-300) <= FACTOR
+def agrees(text: str, number: float | None) -> bool:
+    if text == "-" or number is None:
+        return (text == "-") == (number is None)
+    value = float(text)
+    return max(value, number) < NOISE or 1.0 / FACTOR <= value / max(number, 1e-300) <= FACTOR
 
 
 @cache
@@ -53,31 +53,31 @@ def test_there_are_tables_of_a_row_a_compressor_and_a_v_engine() -> None:
 
 @pytest.mark.parametrize("name", but(DAILY, names("ladder")))
 def test_ladders_are_reproduced(name: str) -> None:
-    found, shown = answer(name).ladder, rows(f"ladder {name}")
-    assert [cells[:2] for cells in shown] == [[method_name(row.method), row.setting] for row in found]
-    for cells, row in zip(shown, found, strict=True):
+    ladder, lines = answer(name).ladder, rows(f"ladder {name}")
+    assert [cells[:2] for cells in lines] == [[method_name(row.method), row.setting] for row in ladder]
+    for cells, row in zip(lines, ladder, strict=True):
         for cell, value in zip(cells[4:7], (row.relative_error, row.as_drawn_error, row.certified_gap), strict=True):
             assert agrees(cell, value), (cells, value)
 
 
 @pytest.mark.parametrize("name", but(DAILY, names("effects")))
 def test_effects_are_reproduced(name: str) -> None:
-    found, shown = answer(name).effects_ladder, rows(f"effects {name}")
-    assert [cells[:3] for cells in shown] == [
-        [row.quantity.replace("_", " "), method_name(row.method), row.setting] for row in found
+    effects_ladder, lines = answer(name).effects_ladder, rows(f"effects {name}")
+    assert [cells[:3] for cells in lines] == [
+        [row.quantity.replace("_", " "), method_name(row.method), row.setting] for row in effects_ladder
     ]
-    for cells, row in zip(shown, found, strict=True):
+    for cells, row in zip(lines, effects_ladder, strict=True):
         assert agrees(cells[4], row.relative_error), (cells, row.relative_error)
 
 
 @pytest.mark.parametrize("name", names("peaks"))
 def test_peaks_are_reproduced(name: str) -> None:
     machine = request(name).machine
-    found, shown = peaks_ladder(machine, layout(machine), 1), rows(f"peaks {name}")
-    assert [[*cells[:2], cells[2]] for cells in shown] == [
-        [row.quantity.removeprefix("peak_").replace("_", " "), method_name(row.method), row.setting] for row in found
+    ladder, lines = peaks_ladder(machine, layout(machine), 1), rows(f"peaks {name}")
+    assert [[*cells[:2], cells[2]] for cells in lines] == [
+        [row.quantity.removeprefix("peak_").replace("_", " "), method_name(row.method), row.setting] for row in ladder
     ]
-    for cells, row in zip(shown, found, strict=True):
+    for cells, row in zip(lines, ladder, strict=True):
         assert cells[3] == ("-" if row.angles is None else str(row.angles))
         assert agrees(cells[5], row.relative_error), (cells, row.relative_error)
         assert agrees(cells[6], row.certified_gap), (cells, row.certified_gap)

@@ -27,9 +27,9 @@ from tests.studies.accuracy.problems import body
 
 
 def compressor() -> ReciprocatingMachine:
-    found = AnalyzeRequest.model_validate({"machine": body("2d12")["machine"]}).machine
-    assert isinstance(found, ReciprocatingMachine)
-    return found
+    design = AnalyzeRequest.model_validate({"machine": body("2d12")["machine"]}).machine
+    assert isinstance(design, ReciprocatingMachine)
+    return design
 
 
 def ladder(plan: ReciprocatingMachine) -> dict[tuple[str, str, str], EffectRow]:
@@ -37,17 +37,17 @@ def ladder(plan: ReciprocatingMachine) -> dict[tuple[str, str, str], EffectRow]:
     return {(row.quantity, row.method, row.setting): row for row in rows}
 
 
-def errors(found: dict[tuple[str, str, str], EffectRow], quantity: str) -> list[float]:
+def errors(fields: dict[tuple[str, str, str], EffectRow], quantity: str) -> list[float]:
     """Errors of the samples, from coarse to fine."""
-    chosen = [found[quantity, "samples", f"{step:g} deg"].relative_error for step in STEPS_DEG]
+    chosen = [fields[quantity, "samples", f"{step:g} deg"].relative_error for step in STEPS_DEG]
     assert None not in chosen
-    return [one for one in chosen if one is not None]
+    return [value for value in chosen if value is not None]
 
 
 def test_the_reference_is_what_the_service_answers() -> None:
     """Independent of the ladder: mean torque and energy of /v1/analyze, with its own estimates."""
-    asked = AnalyzeRequest.model_validate({"machine": body("2d12")["machine"], "outputs": ["torque"]})
-    torque = analyze(asked).torque
+    query = AnalyzeRequest.model_validate({"machine": body("2d12")["machine"], "outputs": ["torque"]})
+    torque = analyze(query).torque
     assert torque is not None
     coarse = ladder(compressor())
     plan = compressor()
@@ -56,8 +56,8 @@ def test_the_reference_is_what_the_service_answers() -> None:
         ("mean_torque", "mean", torque.mean_torque_Nm),
         ("fluctuation_energy", "energy", torque.fluctuation_energy_J),
     ):
-        shown = coarse[quantity, "samples", "5 deg"].relative_error
-        assert shown == pytest.approx(abs(sampled[figure] - value) / value, rel=1e-6)  # type: ignore[index]
+        relative_error = coarse[quantity, "samples", "5 deg"].relative_error
+        assert relative_error == pytest.approx(abs(sampled[figure] - value) / value, rel=1e-6)  # type: ignore[index]
         own = coarse[quantity, "panels", "exact kinematics"].relative_error
         assert own is not None
         assert own < 1e-10
@@ -65,22 +65,22 @@ def test_the_reference_is_what_the_service_answers() -> None:
 
 def test_samples_converge_to_the_panels() -> None:
     """Independent: two methods of integration meet; analytic: trapezoids with kinks fall as the square of the step."""
-    found = ladder(compressor())
+    scale = ladder(compressor())
     for quantity in ("mean_torque", "fluctuation_energy"):
-        far = errors(found, quantity)
+        far = errors(scale, quantity)
         assert far[-1] < 1e-5
         assert far[-1] < 1e-3 * far[0]
-    assert errors(found, "peak_torque")[-1] < 1e-3
-    assert errors(found, "peak_torque")[0] > 0.05
+    assert errors(scale, "peak_torque")[-1] < 1e-3
+    assert errors(scale, "peak_torque")[0] > 0.05
 
 
 def test_an_engine_is_looked_at_over_both_turns() -> None:
     """Independent: two methods of integration meet over the 720 degrees in which a cylinder fires once."""
-    made = ReciprocatingMachine.model_validate(engine([0.0]))
-    found = ladder(made)
+    design = ReciprocatingMachine.model_validate(engine([0.0]))
+    scale = ladder(design)
     for quantity in ("mean_torque", "fluctuation_energy"):
-        assert errors(found, quantity)[-1] < 1e-4
-        own = found[quantity, "panels", "exact kinematics"].relative_error
+        assert errors(scale, quantity)[-1] < 1e-4
+        own = scale[quantity, "panels", "exact kinematics"].relative_error
         assert own is not None
         assert own < 1e-9
 
@@ -100,15 +100,15 @@ def test_an_infinite_rod_gives_the_torque_of_a_sine() -> None:
     """Analytic: T = -1/2 m r^2 w^2 sin 2 phi for a scotch yoke: peak m r^2 w^2 / 2, energy range the same."""
     plan = machine(throw(0.0, row(0.0, 10.0, length_m=None)))
     arrays = layout(plan)
-    found = ladder(plan)
+    scale = ladder(plan)
     size = 10.0 * RADIUS**2 * float(arrays.omega) ** 2
     # at 15 degrees the samples hold the peak at 45 degrees
-    assert found["peak_inertia_torque", "samples", "15 deg"].relative_error == pytest.approx(0.0, abs=1e-9)
-    assert found["peak_inertia_torque", "samples", "30 deg"].relative_error == pytest.approx(
+    assert scale["peak_inertia_torque", "samples", "15 deg"].relative_error == pytest.approx(0.0, abs=1e-9)
+    assert scale["peak_inertia_torque", "samples", "30 deg"].relative_error == pytest.approx(
         1.0 - np.sin(np.deg2rad(60.0)), abs=1e-9
     )
     # order 2 of an infinite rod is exact
-    assert found["inertia_fluctuation_energy", "panels", "kinematics of order 2"].relative_error == pytest.approx(
+    assert scale["inertia_fluctuation_energy", "panels", "kinematics of order 2"].relative_error == pytest.approx(
         0.0, abs=1e-9
     )
     torque = partial(_inertia_torque, plan, arrays, Fidelity())
@@ -120,8 +120,8 @@ def test_the_second_order_is_off_by_the_square_of_the_rod_ratio() -> None:
     """Analytic: what the series leaves out is of order lambda^2 and more: a quarter for half the ratio, roughly."""
     shares = []
     for length in (0.7, 1.4):
-        found = ladder(machine(throw(0.0, row(0.0, 10.0, length_m=length))))
-        share = found["peak_inertia_torque", "search", "kinematics of order 2"].relative_error
+        scale = ladder(machine(throw(0.0, row(0.0, 10.0, length_m=length))))
+        share = scale["peak_inertia_torque", "search", "kinematics of order 2"].relative_error
         assert share is not None
         shares.append(share)
     assert 2.0 < shares[0] / shares[1] < 12.0
@@ -135,8 +135,8 @@ def test_only_machines_with_the_data_have_a_ladder() -> None:
         assert effects_ladder(plan, layout(plan), 1) == ()
     dry = compressor()
     throws = tuple(
-        each.model_copy(update={"rows": tuple(one.model_copy(update={"cylinder": None}) for one in each.rows)})
-        for each in dry.throws
+        crank.model_copy(update={"rows": tuple(line.model_copy(update={"cylinder": None}) for line in crank.rows)})
+        for crank in dry.throws
     )
     quantities = {key[0] for key in ladder(dry.model_copy(update={"throws": throws, "friction": None}))}
     assert quantities == {"peak_inertia_torque", "inertia_fluctuation_energy"}
@@ -144,6 +144,6 @@ def test_only_machines_with_the_data_have_a_ladder() -> None:
 
 def test_rows_without_a_mass_have_a_torque_of_nothing() -> None:
     """Regression: no panel held the peak of a torque that is 0 everywhere, and the search failed."""
-    found = ladder(machine(throw(0.0, row(90.0, 0.0))))
-    assert found
-    assert all(not row.relative_error for row in found.values())
+    scale = ladder(machine(throw(0.0, row(90.0, 0.0))))
+    assert scale
+    assert all(not row.relative_error for row in scale.values())

@@ -29,7 +29,9 @@ def answer(request: pytest.FixtureRequest) -> AccuracyAnswer:
 
 
 def test_every_method_is_a_row(answer: AccuracyAnswer) -> None:
-    assert [(row.method, row.setting) for row in answer.ladder] == [(one.name, one.setting) for one in methods()]
+    assert [(row.method, row.setting) for row in answer.ladder] == [
+        (method.name, method.setting) for method in methods()
+    ]
     assert answer.status == "measured"
     assert all(row.skipped is None and row.runs == 1 and row.first_ms for row in answer.ladder)
 
@@ -73,23 +75,23 @@ def test_the_frontier_of_an_answer_is_not_dominated(answer: AccuracyAnswer) -> N
     best = {(row.method, row.setting) for row in answer.ladder if row.on_frontier}
     assert best
     for name, (taken, error) in places.items():
-        beaten = any(other != (taken, error) and other[0] <= taken and other[1] <= error for other in places.values())
+        beaten = any(place != (taken, error) and place[0] <= taken and place[1] <= error for place in places.values())
         assert beaten == (name not in best)
 
 
 @given(st.lists(st.none() | st.tuples(st.integers(0, 6).map(float), st.integers(0, 6).map(float)), max_size=12))
 def test_the_frontier_is_the_set_that_nothing_dominates(points: list[tuple[float, float] | None]) -> None:
     """Property: beside every other point stands one on the frontier that is as good in both."""
-    found = frontier(points, 2.0)
-    level = [None if one is None else (one[0], max(one[1], 2.0)) for one in points]
-    best = [one for one, on in zip(level, found, strict=True) if on and one is not None]
-    for one, on in zip(level, found, strict=True):
-        if one is None:
+    actual_frontier = frontier(points, 2.0)
+    level = [None if point is None else (point[0], max(point[1], 2.0)) for point in points]
+    best = [pair for pair, on in zip(level, actual_frontier, strict=True) if on and pair is not None]
+    for pair, on in zip(level, actual_frontier, strict=True):
+        if pair is None:
             assert not on
         elif on:
-            assert not any(o[0] <= one[0] and o[1] <= one[1] and o != one for o in best)
+            assert not any(o[0] <= pair[0] and o[1] <= pair[1] and o != pair for o in best)
         else:
-            assert any(o[0] <= one[0] and o[1] <= one[1] and o != one for o in best)
+            assert any(o[0] <= pair[0] and o[1] <= pair[1] and o != pair for o in best)
 
 
 def test_rounds_take_turns_and_run_at_the_position_of_the_largest_error() -> None:
@@ -169,12 +171,12 @@ def test_what_is_too_large_or_too_late_is_skipped_and_says_so(monkeypatch: pytes
 def test_a_machine_of_500_webs_is_measured_within_its_bounds(monkeypatch: pytest.MonkeyPatch) -> None:
     """What is not skipped is bounded in size; here the bound is lowered, to keep the test short."""
     monkeypatch.setattr(ladder, "MAX_ENTRIES", 10_000)
-    asked = body("2d12")
-    asked["machine"]["webs"] = [
+    payload = body("2d12")
+    payload["machine"]["webs"] = [
         {"name": str(k), "position_m": k / 499 - 0.5, "counterweight_radius_m": 0.25, "max_mass_kg": 0.5}
         for k in range(500)
     ]
-    answer = accuracy(AccuracyRequest.model_validate({**asked, "repeats": 1}))
+    answer = accuracy(AccuracyRequest.model_validate({**payload, "repeats": 1}))
     assert answer.size.webs == 500
     answered = [row for row in answer.ladder if not row.skipped]
     assert {"service", "cone_program", "cone_program_matrices"} <= {row.method for row in answered}
@@ -184,9 +186,9 @@ def test_a_machine_of_500_webs_is_measured_within_its_bounds(monkeypatch: pytest
 
 def test_sampled_ceilings_that_are_broken_keep_a_row_off_the_frontier() -> None:
     """The true peak is above what six angles see: the ceiling holds at those only, and the objective is too good."""
-    found = accuracy(request("two-rows-90", direction_weights={"x": 1, "y": 0.2}, moment_ceiling_Nm=4016.5))
-    assert found.status == "measured"
-    rows = {(row.method, row.setting): row for row in found.ladder}
+    reply = accuracy(request("two-rows-90", direction_weights={"x": 1, "y": 0.2}, moment_ceiling_Nm=4016.5))
+    assert reply.status == "measured"
+    rows = {(row.method, row.setting): row for row in reply.ladder}
     broken = rows["sampled_angles", "6 angles"]
     assert broken.excess is not None
     assert broken.relative_error is not None
@@ -194,7 +196,7 @@ def test_sampled_ceilings_that_are_broken_keep_a_row_off_the_frontier() -> None:
     assert broken.excess > 0.03
     assert broken.relative_error < -0.02
     assert not broken.on_frontier
-    for row in found.ladder:
+    for row in reply.ladder:
         if row.method in ("service", "polygonal_cones"):
             assert row.excess is not None
             assert row.excess <= 1e-9, row
@@ -223,15 +225,15 @@ def test_a_bound_that_a_value_contradicts_is_said_and_measures_nothing(
 ) -> None:
     honest = measure.optima
 
-    def too_sharp(*asked: Any) -> Any:
-        found = honest(*asked)
-        return replace(found, lower_bound=found.lower_bound * (1.0 + 1e-6))
+    def too_sharp(*arguments: Any) -> Any:
+        optima = honest(*arguments)
+        return replace(optima, lower_bound=optima.lower_bound * (1.0 + 1e-6))
 
     monkeypatch.setattr(measure, "optima", too_sharp)
-    found = accuracy(request("2d12"))
-    assert (found.status, found.reference, found.ladder) == ("contradicted", None, ())
+    reply = accuracy(request("2d12"))
+    assert (reply.status, reply.reference, reply.ladder) == ("contradicted", None, ())
     assert "a lower bound is above the value of an answer" in caplog.text
-    assert found.effects_ladder
+    assert reply.effects_ladder
 
 
 @pytest.mark.parametrize("limit", part(2, [None, 1e300]))
@@ -239,12 +241,12 @@ def test_a_web_without_a_limit_is_measured(limit: float | None) -> None:
     free = body("single-horizontal")
     for web in free["machine"]["webs"]:
         web["max_mass_kg"] = limit
-    found = accuracy(AccuracyRequest.model_validate({**free, "repeats": 1}))
-    assert found.status == "measured"
-    assert found.reference is not None
+    reply = accuracy(AccuracyRequest.model_validate({**free, "repeats": 1}))
+    assert reply.status == "measured"
+    assert reply.reference is not None
     # independent: what the service answers, which is within a millionth for the least mass
     answer = optimize(OptimizeRequest.model_validate(free))
     assert answer.certificate is not None
     certificate = answer.certificate
-    assert found.reference.objective == pytest.approx(certificate.objective, rel=0, abs=2e-6 * certificate.yardstick)
-    assert all(row.skipped is not None or row.relative_error is not None for row in found.ladder)
+    assert reply.reference.objective == pytest.approx(certificate.objective, rel=0, abs=2e-6 * certificate.yardstick)
+    assert all(row.skipped is not None or row.relative_error is not None for row in reply.ladder)

@@ -34,9 +34,9 @@ from tests.studies.accuracy.problems import free_limits, random_task, single
 
 
 def reference(task: LadderProgram) -> ConeSolution:
-    found = optimum(task.statement, 1e-9, False)
-    assert isinstance(found, ConeSolution)
-    return found
+    solution = optimum(task.statement, 1e-9, False)
+    assert isinstance(solution, ConeSolution)
+    return solution
 
 
 def rest(task: LadderProgram) -> float:
@@ -52,8 +52,8 @@ def solved(outcome: matrices.RivalPoint | NoPoint) -> matrices.RivalPoint:
 def test_the_worst_grid_misses_a_peak_by_its_half_step(angles: int) -> None:
     """Analytic: with equal phasors |F| = 2 |cos(theta - a)|, and a grid half a step beside the peak sees cos(pi/n)."""
     task = single(1.0, 1.0, 0.0 + 1e-9)
-    seen = solved(sampled(task.statement, task.turn, angles, 0.5, 5.0)).claimed
-    assert seen == pytest.approx(2.0 * np.cos(np.pi / angles), abs=1e-7)
+    value = solved(sampled(task.statement, task.turn, angles, 0.5, 5.0)).claimed
+    assert value == pytest.approx(2.0 * np.cos(np.pi / angles), abs=1e-7)
 
 
 @given(st.sampled_from(ANGLES), st.sampled_from(POSITIONS), st.floats(0.0, 6.3), st.floats(0.0, 2.0))
@@ -73,21 +73,21 @@ def test_sampled_programs_bracket_the_optimum(seed: int, angles: int) -> None:
     """Analytic: P_n <= P* <= P(u_n) <= P_n / cos(pi/n), without ceilings."""
     task = random_task(seed, "sum", (1.0, 0.3), True, True, False)
     best = reference(task)
-    found = solved(sampled(task.statement, task.turn, angles, 0.25, 5.0))
-    reached = float(task.statement.objective(found.unbalance))
+    point = solved(sampled(task.statement, task.turn, angles, 0.25, 5.0))
+    reached = float(task.statement.objective(point.unbalance))
     slack = 1e-6 * rest(task)
-    assert found.claimed is not None
-    assert found.claimed <= best.objective + slack
+    assert point.claimed is not None
+    assert point.claimed <= best.objective + slack
     assert best.lower_bound <= reached + slack
-    assert reached * np.cos(np.pi / angles) <= found.claimed + slack
+    assert reached * np.cos(np.pi / angles) <= point.claimed + slack
 
 
 @pytest.mark.parametrize("sides", SIDES)
 def test_a_polygon_on_edge_falls_short_by_its_sagitta(sides: int) -> None:
     """Analytic: where sides face the optimum, all of the side at cos(pi/N) is optimal, middle to corner."""
     task = single(2.0, 0.0, 1.0)
-    found = solved(polygonal(task.statement, sides, 0.5, 5.0))
-    reached = float(task.statement.objective(found.unbalance))
+    point = solved(polygonal(task.statement, sides, 0.5, 5.0))
+    reached = float(task.statement.objective(point.unbalance))
     corner = 2.0 - np.exp(1j * np.pi / sides)
     assert 2.0 - np.cos(np.pi / sides) - 1e-7 <= reached <= abs(corner) + 1e-7
     # a corner that faces the optimum reaches all of the circle
@@ -103,10 +103,10 @@ def test_polygons_converge_with_the_square_of_their_sides(seed: int) -> None:
     bound = reference(task).lower_bound
     gaps = []
     for sides in SIDES:
-        found = solved(polygonal(task.statement, sides, 0.3, 5.0))
-        proven = float(objective_lower_bound(task.statement, found.multipliers))
-        gaps.append((float(task.statement.objective(found.unbalance)) - proven) / rest(task))
-        error = (float(task.statement.objective(found.unbalance)) - bound) / rest(task)
+        point = solved(polygonal(task.statement, sides, 0.3, 5.0))
+        proven = float(objective_lower_bound(task.statement, point.multipliers))
+        gaps.append((float(task.statement.objective(point.unbalance)) - proven) / rest(task))
+        error = (float(task.statement.objective(point.unbalance)) - bound) / rest(task)
         assert -1e-9 <= error <= gaps[-1] + 1e-12
     order = np.polyfit(np.log(SIDES), np.log(gaps), 1)[0]
     assert order == pytest.approx(-2.0, abs=0.35)
@@ -117,14 +117,14 @@ def test_polygons_converge_with_the_square_of_their_sides(seed: int) -> None:
 def test_points_of_polygons_keep_limits_and_ceilings(sides: int, seed: int) -> None:
     """The polygons lie within the discs: what is feasible for the linear program is feasible."""
     task = random_task(seed, "sum", (1.0, 1.0), True, True, True)
-    found = polygonal(task.statement, sides, 0.25, 5.0)
-    if isinstance(found, NoPoint):
+    point = polygonal(task.statement, sides, 0.25, 5.0)
+    if isinstance(point, NoPoint):
         assert sides == 4  # a square of the ceilings may hold no point where the circle does
         return
-    limits, size = task.statement.limits, np.abs(found.unbalance)
+    limits, size = task.statement.limits, np.abs(point.unbalance)
     assert np.all(size <= limits.radius * limits.max_mass * (1.0 + 1e-12))
-    assert task.statement.mass(found.unbalance) <= limits.max_total_mass * (1.0 + 1e-12)
-    assert np.max(task.statement.ceilings.excess(found.unbalance)) <= 1e-9
+    assert task.statement.mass(point.unbalance) <= limits.max_total_mass * (1.0 + 1e-12)
+    assert np.max(task.statement.ceilings.excess(point.unbalance)) <= 1e-9
 
 
 @pytest.mark.parametrize("tolerance", TOLERANCES)
@@ -133,8 +133,8 @@ def test_the_exact_program_is_within_its_tolerance(tolerance: float, seed: int) 
     """Independent: the reference solver with its certificate; errors stay below some times the tolerance."""
     task = random_task(seed, "max", (1.0, 0.3), True, True, False)
     best = reference(task)
-    found = solved(matrices.exact(task.statement, tolerance, 5.0))
-    error = (float(task.statement.objective(found.unbalance)) - best.lower_bound) / rest(task)
+    point = solved(matrices.exact(task.statement, tolerance, 5.0))
+    error = (float(task.statement.objective(point.unbalance)) - best.lower_bound) / rest(task)
     assert -1e-12 <= error <= 20.0 * tolerance + 1e-9
 
 
@@ -144,7 +144,11 @@ def test_no_bound_of_any_method_is_above_what_another_reached(case: int) -> None
     task = random_task(case, *COMBINATIONS[case])
     best = reference(task)
     assert best.keeps_ceilings
-    chosen = [one for one in methods() if one.setting.split()[0] in ("6", "72", "4", "32") or "1e-06" in one.setting]
+    chosen = [
+        single_method
+        for single_method in methods()
+        if single_method.setting.split()[0] in ("6", "72", "4", "32") or "1e-06" in single_method.setting
+    ]
     assert len(chosen) == 9
     answered = 0
     for method in chosen:
@@ -170,7 +174,8 @@ def test_a_program_that_cannot_keep_its_ceilings_says_so() -> None:
     task = random_task(5, "sum", (1.0, 1.0), False, False, True)
     ceilings = replace(task.statement.ceilings, cap=np.full(2, -0.1))
     turn = replace(
-        task.turn, ceilings=tuple((one, 0.1 * abs(one.response.baseline.counter)) for one, _ in task.turn.ceilings)
+        task.turn,
+        ceilings=tuple((response, 0.1 * abs(response.response.baseline.counter)) for response, _ in task.turn.ceilings),
     )
     hopeless = replace(task.statement, ceilings=ceilings)
     assert optimum(hopeless, 1e-9, False).conflict is not None
@@ -207,7 +212,7 @@ def test_the_first_of_a_batch_is_the_program_itself(case: int) -> None:
     """Property: the point and the bound are those of the program alone, and the others are other programs."""
     task = random_task(case, *COMBINATIONS[case])
     alone, batch = (
-        next(one for one in methods() if (one.name, one.setting) == (name, "relative gap 1e-06")).prepare()(
+        next(method for method in methods() if (method.name, method.setting) == (name, "relative gap 1e-06")).prepare()(
             task, 0.0, 5.0
         )
         for name in ("interior_point", "interior_point_batch")

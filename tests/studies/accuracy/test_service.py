@@ -23,8 +23,8 @@ SLOW = re.compile(r"not solved within \d|the 60 s of the whole ladder were used 
 SVG = "{http://www.w3.org/2000/svg}"
 
 
-def run(*arguments: str, given: bytes | None = None) -> Result:
-    return CliRunner().invoke(app, ["accuracy", *arguments], input=given)
+def run(*arguments: str, stdin: bytes | None = None) -> Result:
+    return CliRunner().invoke(app, ["accuracy", *arguments], input=stdin)
 
 
 def request(**changes: Any) -> bytes:
@@ -33,30 +33,36 @@ def request(**changes: Any) -> bytes:
 
 @pytest.fixture(scope="module")
 def answer() -> AccuracyAnswer:
-    result = run("-", "--json", given=request())
+    result = run("-", "--json", stdin=request())
     assert result.exit_code == 0
     return AccuracyAnswer.model_validate_json(result.stdout)
 
 
 def test_the_route_answers_the_ladders(post: Post, answer: AccuracyAnswer) -> None:
     """The same methods, and errors that do not depend on the time, over both doors."""
-    found = post("/v1/accuracy", request())
-    assert found.status_code == 200
-    assert found.headers["cache-control"] == "no-store"
-    other = AccuracyAnswer.model_validate_json(found.content)
-    assert [(row.method, row.setting) for row in other.ladder] == [(row.method, row.setting) for row in answer.ladder]
-    pairs = [*zip(other.ladder, answer.ladder, strict=True)]
+    response = post("/v1/accuracy", request())
+    assert response.status_code == 200
+    assert response.headers["cache-control"] == "no-store"
+    second_answer = AccuracyAnswer.model_validate_json(response.content)
+    assert [(row.method, row.setting) for row in second_answer.ladder] == [
+        (row.method, row.setting) for row in answer.ladder
+    ]
+    pairs = [*zip(second_answer.ladder, answer.ladder, strict=True)]
     # on a machine that is busy a rival may have no answer in its time, and the service has
-    assert all(one.skipped is None or SLOW.search(one.skipped) for pair in pairs for one in pair)
+    assert all(row.skipped is None or SLOW.search(row.skipped) for pair in pairs for row in pair)
     both = [pair for pair in pairs if pair[0].skipped is pair[1].skipped is None]
-    assert {one.method for one, _ in both} >= {"service"}
-    for one, two in both:
-        assert one.relative_error == pytest.approx(two.relative_error, rel=1e-3, abs=1e-12)
-        assert one.certified_gap == pytest.approx(two.certified_gap, rel=1e-3, abs=1e-12)
-    assert {row.quantity for row in other.effects_ladder} == {"mean_torque", "peak_torque", "fluctuation_energy"}
-    assert other.environment.versions.keys() >= {"python", "numpy", "scipy", "clarabel", "cvxpy"}
-    assert other.size.webs == 4
-    assert other.repeats == 1
+    assert {row.method for row, _ in both} >= {"service"}
+    for first_row, two in both:
+        assert first_row.relative_error == pytest.approx(two.relative_error, rel=1e-3, abs=1e-12)
+        assert first_row.certified_gap == pytest.approx(two.certified_gap, rel=1e-3, abs=1e-12)
+    assert {row.quantity for row in second_answer.effects_ladder} == {
+        "mean_torque",
+        "peak_torque",
+        "fluctuation_energy",
+    }
+    assert second_answer.environment.versions.keys() >= {"python", "numpy", "scipy", "clarabel", "cvxpy"}
+    assert second_answer.size.webs == 4
+    assert second_answer.repeats == 1
 
 
 def test_the_rows_hold_what_the_contract_names(answer: AccuracyAnswer) -> None:
@@ -83,28 +89,28 @@ def test_outputs_play_no_part(post: Post, outputs: list[str]) -> None:
     ],
 )
 def test_refusals_name_the_field(post: Post, changes: dict[str, Any], pointer: str) -> None:
-    found = post("/v1/accuracy", request(**changes))
-    assert found.status_code == 422
-    assert found.headers["content-type"] == "application/problem+json"
-    assert pointer in [one["pointer"] for one in found.json()["errors"]]
+    response = post("/v1/accuracy", request(**changes))
+    assert response.status_code == 422
+    assert response.headers["content-type"] == "application/problem+json"
+    assert pointer in [error["pointer"] for error in response.json()["errors"]]
 
 
 def test_infeasible_is_an_answer_over_rest_and_exit_code_1(post: Post) -> None:
     impossible = request(objective={"force_ceiling_N": 1.0})
     assert post("/v1/accuracy", impossible).json()["status"] == "infeasible"
-    result = run("-", given=impossible)
+    result = run("-", stdin=impossible)
     assert result.exit_code == 1
     assert "No counterweights satisfy the ceilings" in result.stdout
 
 
 def test_a_scroll_has_a_ladder_without_effects(post: Post) -> None:
-    found = post("/v1/accuracy", json.dumps({**body("scroll-oldham"), "repeats": 1})).json()
-    assert found["status"] == "measured"
-    assert found["effects_ladder"] == []
+    document = post("/v1/accuracy", json.dumps({**body("scroll-oldham"), "repeats": 1})).json()
+    assert document["status"] == "measured"
+    assert document["effects_ladder"] == []
 
 
 def test_the_command_prints_tables() -> None:
-    result = run("-", "--repeats", "2", given=request())
+    result = run("-", "--repeats", "2", stdin=request())
     assert result.exit_code == 0
     for text in (
         "2D12-90/2-20",
@@ -124,14 +130,14 @@ def test_the_command_prints_tables() -> None:
 
 
 def test_the_command_refuses_what_is_wrong(tmp_path: Path) -> None:
-    for arguments, given, text in (
+    for arguments, query, text in (
         (["-", "--repeats", "21"], request(), "repeats"),
         (["-"], b"{", "not JSON"),
         (["-"], request(repeats=0), "/repeats"),
         (["nowhere.json"], None, "cannot read"),
         (["-", "--picture", str(tmp_path)], request(), "cannot write"),
     ):
-        result = run(*arguments, given=given)
+        result = run(*arguments, stdin=query)
         assert result.exit_code == 2
         assert text in result.stderr
         assert "Traceback" not in result.stderr
@@ -139,12 +145,12 @@ def test_the_command_refuses_what_is_wrong(tmp_path: Path) -> None:
 
 def test_the_picture_holds_every_method_and_the_frontier(tmp_path: Path) -> None:
     path = tmp_path / "picture.svg"
-    assert run("-", "--picture", str(path), given=request()).exit_code == 0
-    texts = {"".join(each.itertext()).strip() for each in ElementTree.parse(path).iter(f"{SVG}text")}
+    assert run("-", "--picture", str(path), stdin=request()).exit_code == 0
+    texts = {"".join(element.itertext()).strip() for element in ElementTree.parse(path).iter(f"{SVG}text")}
     assert texts >= {"the service", "cone program", "sampled angles", "polygonal cones", "frontier"}
     assert texts >= {"720", "256", "1e-10", "true relative error", "time of one solve [ms]", "2D12-90/2-20"}
 
 
 def test_an_empty_ladder_can_be_drawn() -> None:
-    found = run("-", "--json", given=request(objective={"force_ceiling_N": 1.0}))
-    assert draw("nothing", AccuracyAnswer.model_validate_json(found.stdout)).count("<svg") == 1
+    process = run("-", "--json", stdin=request(objective={"force_ceiling_N": 1.0}))
+    assert draw("nothing", AccuracyAnswer.model_validate_json(process.stdout)).count("<svg") == 1

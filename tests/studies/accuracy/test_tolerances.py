@@ -46,12 +46,12 @@ def _turning(**web: Any) -> dict[str, Any]:
 @pytest.mark.parametrize("share", [0.02, 0.5])
 def test_a_turning_mass_is_off_by_its_share(share: float) -> None:
     """Analytic: |a - u| + s |u| of a = 2 kg m is least where u = a, and comes to s a omega^2."""
-    found = measured(_turning(), tolerances={"mass_relative": share})
-    assert found.status == "measured"
-    assert found.reference is not None
-    assert found.reference.objective == pytest.approx(200.0 * share, rel=1e-9)
-    assert found.reference.objective_without_counterweights == pytest.approx(200.0, rel=1e-12)
-    nominal = by_name(found)["nominal", "nothing off"]
+    measurement = measured(_turning(), tolerances={"mass_relative": share})
+    assert measurement.status == "measured"
+    assert measurement.reference is not None
+    assert measurement.reference.objective == pytest.approx(200.0 * share, rel=1e-9)
+    assert measurement.reference.objective_without_counterweights == pytest.approx(200.0, rel=1e-12)
+    nominal = by_name(measurement)["nominal", "nothing off"]
     # it sees nothing of what it comes to
     assert nominal.claim_error == pytest.approx(-share, rel=1e-6)
     assert nominal.certified_gap == pytest.approx(share, rel=1e-6)
@@ -61,17 +61,17 @@ def test_a_turning_mass_is_off_by_its_share(share: float) -> None:
 @pytest.mark.parametrize("goal", part(2, [{}, MAX]))
 def test_the_ladder_stands_on_the_worst_case_of_the_service(tolerances: dict[str, float], goal: dict[str, Any]) -> None:
     """Independent: the smallest worst case and that of the nominal optimum are what /v1/optimize answers."""
-    asked = {"machine": body("2d12")["machine"], "tolerances": tolerances, "objective": goal}
-    found, best = measured(**asked), optimize({**asked, "accuracy": {"relative_gap": 1e-9}})
-    assert found.status == "measured"
-    reference = found.reference
+    payload = {"machine": body("2d12")["machine"], "tolerances": tolerances, "objective": goal}
+    measurement, best = measured(**payload), optimize({**payload, "accuracy": {"relative_gap": 1e-9}})
+    assert measurement.status == "measured"
+    reference = measurement.reference
     assert reference is not None
     price = best.price_of_robustness
     assert price is not None
     rest, bound = reference.objective_without_counterweights, reference.lower_bound
     assert best.certificate is not None
     assert reference.objective == pytest.approx(best.certificate.objective, rel=1e-8)
-    rows = by_name(found)
+    rows = by_name(measurement)
     nominal = rows["nominal", "nothing off"]
     assert nominal.relative_error is not None
     assert nominal.claim_error is not None
@@ -80,7 +80,7 @@ def test_the_ladder_stands_on_the_worst_case_of_the_service(tolerances: dict[str
         assert bound + nominal.relative_error * rest == pytest.approx(price.nominal_optimum_worst_case, rel=1e-6)
     value = bound + (nominal.relative_error + nominal.claim_error) * rest
     assert value == pytest.approx(price.nominal_optimum, rel=1e-8)
-    for row in found.ladder:
+    for row in measurement.ladder:
         if row.skipped is None:
             assert row.relative_error is not None
             assert row.certified_gap is not None
@@ -164,13 +164,13 @@ def test_ceilings_hold_in_the_worst_case() -> None:
     """Property: what is nominally below a ceiling exceeds it where masses are off, and its row says so."""
     # regression: by `/v1/optimize` no counterweights have a smaller moment where masses are off
     most = 1.02 * 1246.65
-    found = measured(twin(), tolerances=MASSES, objective={"moment_ceiling_Nm": most})
+    measurement = measured(twin(), tolerances=MASSES, objective={"moment_ceiling_Nm": most})
     worst = optimize({"machine": twin(), "tolerances": MASSES, "objective": {"moment_ceiling_Nm": most}})
-    assert found.status == "measured"
-    assert found.reference is not None
+    assert measurement.status == "measured"
+    assert measurement.reference is not None
     assert worst.certificate is not None
-    assert found.reference.lower_bound == pytest.approx(worst.certificate.lower_bound, rel=1e-5)
-    rows = by_name(found)
+    assert measurement.reference.lower_bound == pytest.approx(worst.certificate.lower_bound, rel=1e-5)
+    rows = by_name(measurement)
     assert (rows["nominal", "nothing off"].excess or 0.0) > 1e-3
     assert not rows["nominal", "nothing off"].on_frontier
     assert (rows["service", "relative gap 1e-06"].excess or 0.0) <= 1e-9
@@ -183,20 +183,20 @@ def test_counterweights_as_they_are_made_are_judged_in_the_worst_case(kind: str)
     machine = {"a catalogue": lambda: twin(**CHOSEN), "groups": lambda: twin(**ALIKE), "plates": lambda: cut(twin())}[
         kind
     ]()
-    found = measured(machine, tolerances=BOTH)
-    assert found.status == "measured"
-    reference = found.reference
+    measurement = measured(machine, tolerances=BOTH)
+    assert measurement.status == "measured"
+    reference = measurement.reference
     assert reference is not None
     best = optimize({"machine": machine, "tolerances": BOTH, "accuracy": {"relative_gap": 1e-2}})
     assert best.worst_case is not None
     assert best.certificate is not None
-    row = next(row for row in found.choices_ladder if row.setting == "relative gap 1e-02")
+    row = next(row for row in measurement.choices_ladder if row.setting == "relative gap 1e-02")
     assert row.objective == pytest.approx(best.worst_case.objective, rel=1e-9)
     assert row.lower_bound == pytest.approx(best.certificate.lower_bound, rel=1e-9)
     assert reference.objective_without_counterweights == pytest.approx(
         best.certificate.objective_without_counterweights, rel=1e-9
     )
-    rounded = [row for row in found.choices_ladder if row.method == "rounding"]
+    rounded = [row for row in measurement.choices_ladder if row.method == "rounding"]
     assert all(row.relative_error is not None and row.relative_error >= 0.0 for row in rounded)
     assert bool(rounded) == (kind != "plates")
 
@@ -205,12 +205,12 @@ def test_a_shaft_at_another_speed_is_off_too() -> None:
     """Property: what balance shafts carry is off by its own share, for the ladder as for the service."""
     from tests.studies.accuracy.test_balance_shafts import SHAFTS
 
-    asked = {"machine": twin(balance_shafts=SHAFTS), "tolerances": BOTH}
-    found, best = measured(**asked), optimize(asked)
-    assert found.reference is not None
+    payload = {"machine": twin(balance_shafts=SHAFTS), "tolerances": BOTH}
+    measurement, best = measured(**payload), optimize(payload)
+    assert measurement.reference is not None
     assert best.certificate is not None
-    near = 1e-6 * found.reference.objective_without_counterweights
-    assert found.reference.objective == pytest.approx(best.certificate.objective, abs=near)
+    near = 1e-6 * measurement.reference.objective_without_counterweights
+    assert measurement.reference.objective == pytest.approx(best.certificate.objective, abs=near)
 
 
 @pytest.mark.parametrize(
@@ -223,14 +223,14 @@ def test_a_shaft_at_another_speed_is_off_too() -> None:
     ],
 )
 def test_wrong_tolerances_are_refused_by_name(post: Post, changes: dict[str, Any], pointer: str) -> None:
-    found = post("/v1/accuracy", json.dumps({"machine": twin(), **changes}))
-    assert found.status_code == 422
-    assert pointer in [one["pointer"] for one in found.json()["errors"]]
+    response = post("/v1/accuracy", json.dumps({"machine": twin(), **changes}))
+    assert response.status_code == 422
+    assert pointer in [error["pointer"] for error in response.json()["errors"]]
 
 
 def test_the_command_names_the_worst_case() -> None:
-    asked = json.dumps({"machine": twin(), "tolerances": BOTH, "repeats": 1}).encode()
-    result = CliRunner().invoke(app, ["accuracy", "-"], input=asked)
+    passage = json.dumps({"machine": twin(), "tolerances": BOTH, "repeats": 1}).encode()
+    result = CliRunner().invoke(app, ["accuracy", "-"], input=passage)
     assert result.exit_code == 0
     for text in (
         "smallest worst case",

@@ -57,11 +57,11 @@ def matched(body: dict[str, Any]) -> MatchAnswer:
     return match(MatchRequest.model_validate(body))
 
 
-def objective(given: Any, row_masses: np.ndarray, moment_weight: float, force_weight: float = 1.0) -> np.ndarray:
+def objective(design: Any, row_masses: np.ndarray, moment_weight: float, force_weight: float = 1.0) -> np.ndarray:
     """Weighted peaks (...) of row masses (..., rows) by hand: a row pushes with m r w^2 cos(t + d - g)."""
-    crank = np.exp(1j * np.deg2rad([one["crank_angle_deg"] for one in given["throws"]]))
-    axis = np.exp(1j * np.deg2rad([one["rows"][0]["axis_deg"] for one in given["throws"]]))
-    place = np.array([one["position_m"] for one in given["throws"]])
+    crank = np.exp(1j * np.deg2rad([throw["crank_angle_deg"] for throw in design["throws"]]))
+    axis = np.exp(1j * np.deg2rad([throw["rows"][0]["axis_deg"] for throw in design["throws"]]))
+    place = np.array([throw["position_m"] for throw in design["throws"]])
     co, counter = 0.5 * crank, 0.5 * axis**2 * np.conj(crank)
     force, moment = (
         sum(np.abs(row_masses @ (arm * part)) for part in (co, counter)) for arm in (np.ones_like(place), place)
@@ -72,5 +72,5 @@ def objective(given: Any, row_masses: np.ndarray, moment_weight: float, force_we
 
 def every(classes: list[dict[str, Any]], rows: int) -> np.ndarray:
     """Row masses (N, rows) of all assignments, where every class has a part for every row."""
-    orders = [np.array(list(permutations(one["masses_kg"]))) for one in classes]
+    orders = [np.array(list(permutations(single_class["masses_kg"]))) for single_class in classes]
     return np.array([12.0 + sum(some, start=np.zeros(rows)) for some in product(*orders)])

@@ -82,9 +82,9 @@ def main() -> None:
             began = time.process_time()
             answers = [answer(case, seed, without) for seed in seeds]
             spent = (time.process_time() - began) / len(seeds)
-            gaps.append(float(np.median([gap(each) for each in answers])))
-            proven.append(sum(each.status == "optimal" for each in answers))
-        columns = "  ".join(f"{each:8.1e}" for each in gaps)
+            gaps.append(float(np.median([gap(reply) for reply in answers])))
+            proven.append(sum(reply.status == "optimal" for reply in answers))
+        columns = "  ".join(f"{single_gap:8.1e}" for single_gap in gaps)
         print(f"{case.rows:4} {case.classes:7} {case.cranks:24} {columns}   {proven}   {spent:6.2f}", flush=True)
 
 

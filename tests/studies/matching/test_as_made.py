@@ -37,20 +37,20 @@ def machine(**changes: Any) -> Machine:
     return {"kind": "reciprocating", "speed_rpm": 600, "throws": throws, "webs": webs, **changes}
 
 
-def on_webs(given: Machine, **fields: Any) -> Machine:
-    return given | {"webs": [web | fields for web in given["webs"]]}
+def on_webs(design: Machine, **fields: Any) -> Machine:
+    return design | {"webs": [web | fields for web in design["webs"]]}
 
 
-def cut(given: Machine) -> Machine:
+def cut(design: Machine) -> Machine:
     plate = {"shape": "sector", "inner_radius_m": 0.05, "outer_radius_m": 0.14, "thickness_m": 0.02}
-    known = ("name", "position_m", "throw")
-    return given | {"webs": [{name: web[name] for name in known} | {"envelope": plate} for web in given["webs"]]}
+    entry = ("name", "position_m", "throw")
+    return design | {"webs": [{name: web[name] for name in entry} | {"envelope": plate} for web in design["webs"]]}
 
 
-def fixed(given: Machine) -> Machine:
-    given["webs"][1]["fixed"] = {"mass_kg": 2.0, "angle_deg": 200.0}
-    given["webs"][1].pop("hole_angles_deg", None)
-    return given
+def fixed(design: Machine) -> Machine:
+    design["webs"][1]["fixed"] = {"mass_kg": 2.0, "angle_deg": 200.0}
+    design["webs"][1].pop("hole_angles_deg", None)
+    return design
 
 
 ALIKE = {"web_groups": [{"name": "two", "webs": ["0", "2"]}]}
@@ -73,13 +73,13 @@ KINDS: dict[str, Callable[[], Machine]] = {
 }
 
 
-def body(given: Machine, **more: Any) -> dict[str, Any]:
+def body(fields: Machine, **more: Any) -> dict[str, Any]:
     places = [{"throw": n, "row": 0} for n in range(2)]
     parts = [
         {"class": "piston", "names": ["P1", "P2", "P3"], "masses_kg": PISTONS},
         {"class": "rod", "names": ["R1", "R2"], "masses_kg": RODS, "rows": places},
     ]
-    return {"machine": given, "parts": parts, "choose_counterweights": True, "accuracy": {"relative_gap": GAP}} | more
+    return {"machine": fields, "parts": parts, "choose_counterweights": True, "accuracy": {"relative_gap": GAP}} | more
 
 
 def assignments() -> Iterator[tuple[float, ...]]:
@@ -89,12 +89,12 @@ def assignments() -> Iterator[tuple[float, ...]]:
             yield pistons[0] + rods[0], pistons[1] + rods[1], pistons[2]
 
 
-def heavier(given: Machine, masses: tuple[float, ...]) -> Machine:
+def heavier(design: Machine, masses: tuple[float, ...]) -> Machine:
     throws = [
         throw | {"rows": [throw["rows"][0] | {"reciprocating_mass_kg": 3.0 + mass}]}
-        for throw, mass in zip(given["throws"], masses, strict=True)
+        for throw, mass in zip(design["throws"], masses, strict=True)
     ]
-    return given | {"throws": throws}
+    return design | {"throws": throws}
 
 
 #: those whose every assignment takes a second; every night: `pytest tests/studies/matching -m nightly`
@@ -106,17 +106,17 @@ LONG = ("minimum masses", "plates in groups, under a budget")
 )
 def test_the_best_of_all_assignments(kind: str) -> None:
     """Brute force: every assignment optimised by itself (independent of the search and of its minorants)."""
-    given = KINDS[kind]()
+    fields = KINDS[kind]()
     values, bounds = [], []
     for masses in assignments():
-        answer = optimize({"machine": heavier(given, masses), "accuracy": {"relative_gap": GAP, "time_limit_s": 30}})
+        answer = optimize({"machine": heavier(fields, masses), "accuracy": {"relative_gap": GAP, "time_limit_s": 30}})
         assert answer.certificate is not None
         assert answer.certificate.lower_bound is not None
         values.append(answer.certificate.objective)
         bounds.append(answer.certificate.lower_bound)
-    found = match(body(given))
-    proof = found.certificate
-    assert found.status == "optimal"
+    reply = match(body(fields))
+    proof = reply.certificate
+    assert reply.status == "optimal"
     assert proof.lower_bound is not None
     size = proof.yardstick
     assert proof.objective == pytest.approx(min(values), abs=2 * GAP * size)
@@ -124,63 +124,67 @@ def test_the_best_of_all_assignments(kind: str) -> None:
     assert proof.objective >= min(bounds) - 1e-9 * size
     # as they are listed is the first
     assert proof.objective_as_listed == pytest.approx(values[0], abs=2 * GAP * size)
-    judged(given, found)
+    judged(fields, reply)
 
 
-def judged(given: Machine, found: MatchAnswer) -> None:
+def judged(design: Machine, answer: MatchAnswer) -> None:
     """The counterweights are those of the machine's rules, and the figures are theirs."""
-    rows = tuple(row.reciprocating_mass_kg - 3.0 for row in found.rows)
-    free = [one for one in found.counterweights if not one.fixed]
-    carried = [one.model_dump(include={"web", "mass_kg", "angle_deg"}) for one in free if one.mass_kg > 0]
-    again = analyze({"machine": heavier(given, rows), "counterweights": carried})
+    rows = tuple(row.reciprocating_mass_kg - 3.0 for row in answer.rows)
+    free = [counterweight for counterweight in answer.counterweights if not counterweight.fixed]
+    carried = [
+        counterweight.model_dump(include={"web", "mass_kg", "angle_deg"})
+        for counterweight in free
+        if counterweight.mass_kg > 0
+    ]
+    again = analyze({"machine": heavier(design, rows), "counterweights": carried})
     assert again.residual is not None
     assert again.residual.after is not None
-    assert again.residual.after.force.peak_N == pytest.approx(found.residual.after.force.peak_N, rel=1e-12)
-    mass = {one.web: one.mass_kg for one in found.counterweights}
-    if "web_groups" in given:
+    assert again.residual.after.force.peak_N == pytest.approx(answer.residual.after.force.peak_N, rel=1e-12)
+    mass = {counterweight.web: counterweight.mass_kg for counterweight in answer.counterweights}
+    if "web_groups" in design:
         assert mass["0"] == mass["2"]
-    least = given["webs"][0].get("min_fitted_mass_kg")
+    least = design["webs"][0].get("min_fitted_mass_kg")
     if least is not None:
-        assert all(one == 0.0 or one >= least for one in mass.values())
-    catalogue = given.get("catalogue", {})
+        assert all(weight == 0.0 or weight >= least for weight in mass.values())
+    catalogue = design.get("catalogue", {})
     if "masses_kg" in catalogue:
-        assert {one.mass_kg for one in free} <= {0.0, *catalogue["masses_kg"]}
+        assert {counterweight.mass_kg for counterweight in free} <= {0.0, *catalogue["masses_kg"]}
     if "max_part_numbers" in catalogue:
-        assert len({one.mass_kg for one in free} - {0.0}) <= 1
-        assert sum(1 for one in free if one.mass_kg > 0.0) <= 2
-    if "max_total_mass_kg" in given:
-        assert sum(mass.values()) <= given["max_total_mass_kg"] * (1 + 1e-9)
+        assert len({counterweight.mass_kg for counterweight in free} - {0.0}) <= 1
+        assert sum(1 for counterweight in free if counterweight.mass_kg > 0.0) <= 2
+    if "max_total_mass_kg" in design:
+        assert sum(mass.values()) <= design["max_total_mass_kg"] * (1 + 1e-9)
 
 
 def test_given_counterweights_are_as_they_are() -> None:
     """What the machine would choose from plays no part, and what was cut has the radius of its mass."""
     carried = [{"web": "0", "mass_kg": 1.2, "angle_deg": 170.0}]
-    for given in (machine(**STOCK, **ALIKE), cut(machine(**ALIKE))):
-        found = match(body(given, choose_counterweights=False, counterweights=carried))
+    for design in (machine(**STOCK, **ALIKE), cut(machine(**ALIKE))):
+        answer = match(body(design, choose_counterweights=False, counterweights=carried))
         best = np.inf
         for masses in assignments():
-            after = analyze({"machine": heavier(given, masses), "counterweights": carried}).residual
+            after = analyze({"machine": heavier(design, masses), "counterweights": carried}).residual
             assert after is not None
             assert after.after is not None
             span = 1.1
             best = min(best, after.after.force.peak_N + after.after.moment.peak_Nm / span)
-        assert found.certificate.objective == pytest.approx(best, rel=1e-9)
-        assert found.status == "optimal"
+        assert answer.certificate.objective == pytest.approx(best, rel=1e-9)
+        assert answer.status == "optimal"
 
 
 def test_a_search_that_the_time_ends_says_its_gap() -> None:
     """Of each assignment 0.001 s is not enough for so many options; the bound is one of them all."""
-    given = machine(catalogue={"mass_step_kg": 0.05, "angle_step_deg": 2, "max_part_numbers": 2})
-    found = match(body(given, accuracy={"relative_gap": 1e-9, "time_limit_s": 0.001}))
-    assert found.status == "inaccurate"
-    assert "time" in found.status_reason
-    proof = found.certificate
+    design = machine(catalogue={"mass_step_kg": 0.05, "angle_step_deg": 2, "max_part_numbers": 2})
+    answer = match(body(design, accuracy={"relative_gap": 1e-9, "time_limit_s": 0.001}))
+    assert answer.status == "inaccurate"
+    assert "time" in answer.status_reason
+    proof = answer.certificate
     assert proof.lower_bound is not None
     assert 0.0 < proof.lower_bound <= proof.objective
 
 
 @pytest.mark.parametrize(
-    ("given", "where"),
+    ("function", "where"),
     [
         (lambda: machine(**STOCK, web_groups=[{"name": "g", "webs": ["0", "9"]}]), "/machine/web_groups/0/webs/1"),
         (lambda: machine(catalogue={"masses_kg": [2.0], "angle_step_deg": 7}), "/machine/catalogue/angle_step_deg"),
@@ -188,9 +192,9 @@ def test_a_search_that_the_time_ends_says_its_gap() -> None:
         (lambda: on_webs(machine(**ALIKE), min_fitted_mass_kg=4.0, max_mass_kg=None), "/machine/webs/0/max_mass_kg"),
     ],
 )
-def test_what_cannot_be_chosen_names_its_field(given: Callable[[], Machine], where: str) -> None:
+def test_what_cannot_be_chosen_names_its_field(function: Callable[[], Machine], where: str) -> None:
     with pytest.raises(InvalidRequest) as caught:
-        check(MatchRequest, body(given()))
+        check(MatchRequest, body(function()))
     assert where in [pointer(problem.path) for problem in caught.value.problems]
 
 
@@ -198,10 +202,10 @@ def test_what_is_found_out_later_names_its_field_too() -> None:
     heavy = [{"web": "0", "mass_kg": 100.0, "angle_deg": 0.0}]
     unlike = machine(**ALIKE)
     unlike["webs"][2]["max_mass_kg"] = 4.0
-    for asked, where in (
+    for payload, where in (
         (body(cut(machine()), choose_counterweights=False, counterweights=heavy), "/counterweights/0/mass_kg"),
         (body(unlike), "/machine/web_groups/0/webs/1"),
     ):
         with pytest.raises(OutOfRange) as caught:
-            match(asked)
+            match(payload)
         assert [pointer(problem.path) for problem in caught.value.problems] == [where]

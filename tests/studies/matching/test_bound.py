@@ -19,13 +19,13 @@ def test_it_is_that_of_all_mixtures(rows: int, classes: int) -> None:
     request = MatchRequest.model_validate(body)
     problem = stated(request, request.machine, np.zeros(0), np.zeros(0))
     shares = [cp.Variable((rows, rows), nonneg=True) for _ in range(classes)]
-    once = [cp.sum(one, axis=axis) == 1 for one in shares for axis in (0, 1)]
-    masses = cp.hstack([one @ each.mass for one, each in zip(shares, problem.classes, strict=True)])
+    once = [cp.sum(share, axis=axis) == 1 for share in shares for axis in (0, 1)]
+    masses = cp.hstack([share @ places.mass for share, places in zip(shares, problem.classes, strict=True)])
     relaxed = cp.Problem(cp.Minimize(cp.sum(cp.abs(problem.start + problem.of_place @ masses))), once)
     relaxed.solve(solver=cp.CLARABEL)
     mass = searched(problem, problem.peaks, problem.input_order[None])[0]
     value = float(problem.peaks.at(problem.vectors(mass)))
-    found = best_plane(problem, problem.peaks, value, 0.0).least
-    assert found <= relaxed.value * (1 + 1e-6)
-    assert relaxed.value - found <= 1e-3 * value
-    assert found <= value
+    number = best_plane(problem, problem.peaks, value, 0.0).least
+    assert number <= relaxed.value * (1 + 1e-6)
+    assert relaxed.value - number <= 1e-3 * value
+    assert number <= value

@@ -18,24 +18,24 @@ def never() -> bool:
 @pytest.mark.parametrize("side", [0.2, 3.0, np.inf])
 def test_pairs_are_those_in_the_same_cell(side: float) -> None:
     """Independent: every pair."""
-    one, other = np.random.default_rng(0).standard_normal((2, 60, 3))
-    found = met(one, other, side, 10_000)
-    same = np.all(np.floor(one / side)[:, None] == np.floor(other / side), axis=-1)
-    assert sorted(zip(*found.tolist(), strict=True)) == sorted(
+    first, second = np.random.default_rng(0).standard_normal((2, 60, 3))
+    value = met(first, second, side, 10_000)
+    same = np.all(np.floor(first / side)[:, None] == np.floor(second / side), axis=-1)
+    assert sorted(zip(*value.tolist(), strict=True)) == sorted(
         zip(*(k.tolist() for k in np.nonzero(same)), strict=True)
     )
-    assert met(one, other, np.inf, 7).shape == (2, 7)
+    assert met(first, second, np.inf, 7).shape == (2, 7)
 
 
 def test_two_classes_of_four_rows_come_to_the_best_there_is() -> None:
     """Independent: all assignments; four lists of two places each are dealt anew until nothing is better."""
-    given, classes = machine(mirrored(4), [90.0] * 4), parts(3, 4, 4)
-    request = MatchRequest.model_validate({"machine": given, "parts": classes})
+    design, classes = machine(mirrored(4), [90.0] * 4), parts(3, 4, 4)
+    request = MatchRequest.model_validate({"machine": design, "parts": classes})
     problem = stated(request, request.machine, np.zeros(0), np.zeros(0))
-    found = near_to_nothing(problem, problem.input_order, 0.0, never)
-    assert all(sorted(found[part]) == sorted(problem.input_order[part]) for part in problem.slices)
-    best = np.min(objective(given, every(classes, 4), 1.0))
-    assert objective(given, 12.0 + problem.row_masses(found), 1.0) == pytest.approx(best, rel=1e-9)
+    near_values = near_to_nothing(problem, problem.input_order, 0.0, never)
+    assert all(sorted(near_values[part]) == sorted(problem.input_order[part]) for part in problem.slices)
+    best = np.min(objective(design, every(classes, 4), 1.0))
+    assert objective(design, 12.0 + problem.row_masses(near_values), 1.0) == pytest.approx(best, rel=1e-9)
 
 
 def test_one_class_of_few_rows_is_left_as_it_is_where_nothing_is_better() -> None:
@@ -49,12 +49,12 @@ def test_a_class_of_one_row_ends_nothing() -> None:
     rows = [{"throw": k, "row": 0} for k in range(17)]
     classes = parts(3, 1, 16)
     classes[0]["rows"], classes[1]["rows"] = rows[:1], rows[1:]
-    given = machine([360.0 * k / 17 for k in range(17)], [90.0] * 17)
-    body = {"machine": given, "parts": classes, "objective": {"moment_weight": 0}}
+    design = machine([360.0 * k / 17 for k in range(17)], [90.0] * 17)
+    body = {"machine": design, "parts": classes, "objective": {"moment_weight": 0}}
     request = MatchRequest.model_validate(body)
     problem = stated(request, request.machine, np.zeros(0), np.zeros(0))
-    found = near_to_nothing(problem, problem.input_order, 0.0, never)
-    before, after = (float(problem.peaks.at(problem.vectors(mass))) for mass in (problem.input_order, found))
+    near_values = near_to_nothing(problem, problem.input_order, 0.0, never)
+    before, after = (float(problem.peaks.at(problem.vectors(mass))) for mass in (problem.input_order, near_values))
     assert after < 1e-2 * before
 
 

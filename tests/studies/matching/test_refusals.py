@@ -55,25 +55,25 @@ def test_the_field_is_named(changes: dict[str, Any], where: str) -> None:
 
 
 def test_parts_need_rows_and_chosen_counterweights_a_limit() -> None:
-    given = deepcopy(BODY["machine"])
-    given["webs"][0]["max_mass_kg"] = None
-    assert refused(machine=given, choose_counterweights=True) == ["/machine/webs/0/max_mass_kg"]
-    for throw in given["throws"]:
+    variant = deepcopy(BODY["machine"])
+    variant["webs"][0]["max_mass_kg"] = None
+    assert refused(machine=variant, choose_counterweights=True) == ["/machine/webs/0/max_mass_kg"]
+    for throw in variant["throws"]:
         throw["rows"] = []
-    assert "/machine/throws" in refused(machine=given)
+    assert "/machine/throws" in refused(machine=variant)
 
 
 @pytest.mark.parametrize(
-    ("rows", "parts_", "said"),
+    ("rows", "parts_", "text"),
     [
         (1, 2, "there is 1 row for 2 parts"),
         (2, 1, "there are 2 rows for 1 part"),
         (2, 3, "there are 2 rows for 3 parts"),
     ],
 )
-def test_rows_and_parts_are_counted(rows: int, parts_: int, said: str) -> None:
-    given = part(names=[str(k) for k in range(parts_)], masses_kg=[1.0] * parts_)
-    given["rows"] = [{"throw": k, "row": 0} for k in range(rows)]
+def test_rows_and_parts_are_counted(rows: int, parts_: int, text: str) -> None:
+    piece = part(names=[str(k) for k in range(parts_)], masses_kg=[1.0] * parts_)
+    piece["rows"] = [{"throw": k, "row": 0} for k in range(rows)]
     with pytest.raises(InvalidRequest) as caught:
-        check(MatchRequest, {**deepcopy(BODY), "parts": [given]})
-    assert [problem.message.split(";")[0] for problem in caught.value.problems] == [said]
+        check(MatchRequest, {**deepcopy(BODY), "parts": [piece]})
+    assert [problem.message.split(";")[0] for problem in caught.value.problems] == [text]

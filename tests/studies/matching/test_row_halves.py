@@ -18,7 +18,7 @@ SCATTERED = [0.0, 225.0, 90.0, 45.0, 180.0, 315.0, 135.0, 270.0]
 THREE_AXES = [30.0, 90.0, 150.0, 30.0, 90.0, 150.0, 30.0, 90.0]
 
 
-def asked(cranks: list[float], axes: list[float], goal: dict[str, Any], seed: int = 1) -> MatchRequest:
+def match_request(cranks: list[float], axes: list[float], goal: dict[str, Any], seed: int = 1) -> MatchRequest:
     count = len(cranks)
     return MatchRequest.model_validate(
         {
@@ -54,21 +54,21 @@ def never() -> bool:
 )
 def test_it_is_the_best_of_all_orders(cranks: list[float], axes: list[float], goal: dict[str, Any]) -> None:
     """Independent: every order of the parts; begun from one that a hundredth of them, or a few, are better than."""
-    problem = problem_of(asked(cranks, axes, goal))
+    problem = problem_of(match_request(cranks, axes, goal))
     orders = problem.input_order[np.array(list(permutations(range(len(cranks)))))]
     values = np.sort(problem.peaks.at(problem.vectors(orders)))
     for rank in (len(values) // 100, 20):
-        known = float(values[min(rank, len(values) - 1)])
-        cut = best_plane(problem, problem.peaks, known, 0.0)
-        found = exhausted(problem, cut, known, 0.0, never)
-        assert found.lower_bound <= values[0] + problem.rounding
-        if found.complete:
-            assert found.value == pytest.approx(values[0], abs=problem.rounding)
-        if found.mass is not None:
-            assert sorted(found.mass) == sorted(problem.input_order)
-            assert float(problem.peaks.at(problem.vectors(found.mass))) == pytest.approx(found.value, rel=1e-9)
+        value = float(values[min(rank, len(values) - 1)])
+        cut = best_plane(problem, problem.peaks, value, 0.0)
+        optimum = exhausted(problem, cut, value, 0.0, never)
+        assert optimum.lower_bound <= values[0] + problem.rounding
+        if optimum.complete:
+            assert optimum.value == pytest.approx(values[0], abs=problem.rounding)
+        if optimum.mass is not None:
+            assert sorted(optimum.mass) == sorted(problem.input_order)
+            assert float(problem.peaks.at(problem.vectors(optimum.mass))) == pytest.approx(optimum.value, rel=1e-9)
     # the windows of so few better ones are narrow enough to look at all
-    assert found.complete
+    assert optimum.complete
 
 
 @pytest.mark.parametrize("heavier_kg", [0.0, 0.1])
@@ -82,17 +82,17 @@ def test_a_machine_the_same_from_both_ends_is_looked_at_once(heavier_kg: float, 
     body["parts"][0]["masses_kg"][:equal] = [41.0] * equal
     problem = problem_of(MatchRequest.model_validate(body))
     values = problem.peaks.at(problem.vectors(np.array(list(permutations(problem.input_order)))))
-    known = float(np.partition(values, 20 * equal)[20 * equal])
-    found = exhausted(problem, best_plane(problem, problem.peaks, known, 0.0), known, 0.0, never)
-    assert found.complete
-    assert found.mass is not None
-    assert found.value == pytest.approx(np.min(values), abs=problem.rounding)
-    assert found.lower_bound <= np.min(values) + problem.rounding
+    part = float(np.partition(values, 20 * equal)[20 * equal])
+    optimum = exhausted(problem, best_plane(problem, problem.peaks, part, 0.0), part, 0.0, never)
+    assert optimum.complete
+    assert optimum.mass is not None
+    assert optimum.value == pytest.approx(np.min(values), abs=problem.rounding)
+    assert optimum.lower_bound <= np.min(values) + problem.rounding
 
 
 def test_ten_rows_of_each_kind_are_proven() -> None:
     """Metamorphic: what a random assignment comes to is no less than the answer, nor than the bound."""
-    request = asked([36.0 * k for k in (0, 5, 3, 8, 1, 6, 4, 9, 2, 7)], [90.0] * 10, {})
+    request = match_request([36.0 * k for k in (0, 5, 3, 8, 1, 6, 4, 9, 2, 7)], [90.0] * 10, {})
     answer = match(request)
     assert (answer.status, answer.certificate.method) == ("optimal", "exhaustion")
     problem = problem_of(request)
@@ -107,14 +107,14 @@ def test_ten_rows_of_each_kind_are_proven() -> None:
 def test_sixteen_rows_with_cranks_in_some_order_are_proven() -> None:
     """Regression: 1e-4 was not reached by the bound by sorting alone; listed the other way round nothing changes."""
     cranks = [float(angle) for angle in np.random.default_rng(0).permutation(16) * 22.5]
-    request = asked(cranks, [90.0] * 16, {}, seed=16)
-    given = request.parts[0]
-    other = given.model_copy(update={"names": given.names[::-1], "masses_kg": given.masses_kg[::-1]})
-    one, turned = match(request), match(request.model_copy(update={"parts": (other,)}))
-    assert one.status == turned.status == "optimal"
-    assert one.certificate.method == "exhaustion"
-    assert one.certificate.objective == turned.certificate.objective
-    assert one.assignments == turned.assignments
+    request = match_request(cranks, [90.0] * 16, {}, seed=16)
+    part = request.parts[0]
+    second = part.model_copy(update={"names": part.names[::-1], "masses_kg": part.masses_kg[::-1]})
+    answer, turned = match(request), match(request.model_copy(update={"parts": (second,)}))
+    assert answer.status == turned.status == "optimal"
+    assert answer.certificate.method == "exhaustion"
+    assert answer.certificate.objective == turned.certificate.objective
+    assert answer.assignments == turned.assignments
 
 
 def test_rows_whose_equal_masses_balance_are_proven() -> None:
@@ -124,17 +124,17 @@ def test_rows_whose_equal_masses_balance_are_proven() -> None:
         "parts": parts(16, 12),
         "accuracy": {"relative_gap": 1e-6, "time_limit_s": 30},
     }
-    one = match(MatchRequest.model_validate(body))
+    answer = match(MatchRequest.model_validate(body))
     body["machine"]["throws"][0]["rows"][0]["reciprocating_mass_kg"] += 1e-7
     assert match(MatchRequest.model_validate(body)).certificate.objective == pytest.approx(
-        one.certificate.objective, rel=1e-3
+        answer.certificate.objective, rel=1e-3
     )
-    assert (one.status, one.certificate.method) == ("optimal", "exhaustion")
+    assert (answer.status, answer.certificate.method) == ("optimal", "exhaustion")
 
 
 def test_the_time_ends_it_and_is_said() -> None:
     """Sixteen rows whose equal masses balance: the bound is nothing, and all sets would have to be looked at."""
-    request = asked(mirrored(16), [90.0] * 16, {})
+    request = match_request(mirrored(16), [90.0] * 16, {})
     answer = match(request.model_copy(update={"accuracy": request.accuracy.model_copy(update={"time_limit_s": 0.05})}))
     assert answer.status == "inaccurate"
     assert "accuracy.time_limit_s" in answer.status_reason
@@ -146,7 +146,7 @@ def test_the_time_ends_it_and_is_said() -> None:
 
 def test_that_exchanges_ended_it_is_said() -> None:
     """Two classes of ten rows whose equal masses balance: all pairs of their orders are too many to compare."""
-    request = asked(mirrored(10), [90.0] * 10, {})
+    request = match_request(mirrored(10), [90.0] * 10, {})
     more = request.parts[0].model_copy(update={"kind": "b", "masses_kg": request.parts[0].masses_kg[::-1]})
     answer = match(request.model_copy(update={"parts": (request.parts[0], more)}))
     assert (answer.status, answer.certificate.method) == ("inaccurate", "sorting")

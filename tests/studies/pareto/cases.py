@@ -38,14 +38,16 @@ def traded(point: ParetoPoint) -> tuple[float, float]:
     return point.weighted_force_peak_N, point.weighted_moment_peak_Nm
 
 
-def below_a_corner(force: float, moment: float, found: ParetoFront, slack: float = 0.0) -> bool:
+def below_a_corner(force: float, moment: float, pareto_front: ParetoFront, slack: float = 0.0) -> bool:
     """Whether a force and a moment are where the front proves that no counterweights are.
 
     slack : share of the scale by which both must be below the corner to count.
     """
-    assert found.scale is not None
-    force, moment = force + slack * found.scale.force_N, moment + slack * found.scale.moment_Nm
-    return any(force < one.certificate.force_N and moment < one.certificate.moment_Nm for one in found.points)
+    assert pareto_front.scale is not None
+    force, moment = force + slack * pareto_front.scale.force_N, moment + slack * pareto_front.scale.moment_Nm
+    return any(
+        force < point.certificate.force_N and moment < point.certificate.moment_Nm for point in pareto_front.points
+    )
 
 
 def straight() -> dict[str, Any]:

@@ -42,16 +42,16 @@ def inclined(rotation: str = "ccw", **more: Any) -> dict[str, Any]:
 
 def sound(body: dict[str, Any], **more: Any) -> tuple[ParetoAnswer, dict[str, Any]]:
     """A front with its multipliers, none of whose claims the independent checker breaks; and as JSON."""
-    sent = {"machine": body, "points": 5, "multipliers": True, **more}
-    answer = pareto(ParetoRequest.model_validate(sent))
-    shown = json.loads(answer.model_dump_json())
-    assert not broken(sent, shown)
-    return answer, shown
+    request = {"machine": body, "points": 5, "multipliers": True, **more}
+    answer = pareto(ParetoRequest.model_validate(request))
+    document = json.loads(answer.model_dump_json())
+    assert not broken(request, document)
+    return answer, document
 
 
 def trades(body: dict[str, Any], responses: list[str], points: int = 4, **more: Any) -> TradedFront:
-    (found,) = ask(body, points=points, responses=responses, **more).trades
-    return found
+    (trade,) = ask(body, points=points, responses=responses, **more).trades
+    return trade
 
 
 def over_turn(body: dict[str, Any], point: dict[str, Any], first: bool) -> np.ndarray:
@@ -61,9 +61,9 @@ def over_turn(body: dict[str, Any], point: dict[str, Any], first: bool) -> np.nd
 
 def test_a_lanchester_shaft_leaves_nothing_to_trade() -> None:
     # published: half of the reciprocating mass on either shaft, opposite the crank, cancels the first order
-    (found,) = sound(single([shaft("back", -1, radius=0.05)]))[0].fronts
-    (point,) = found.points
-    assert (found.status, found.reason) == ("optimal", "reached_together")
+    (pareto_front,) = sound(single([shaft("back", -1, radius=0.05)]))[0].fronts
+    (point,) = pareto_front.points
+    assert (pareto_front.status, pareto_front.reason) == ("optimal", "reached_together")
     assert point.force_peak_N <= 1e-6 * WHOLE
     assert point.moment_peak_Nm == 0.0
     assert point.total_mass_kg == pytest.approx(5.0, rel=1e-6)
@@ -75,9 +75,9 @@ def test_a_lanchester_shaft_leaves_nothing_to_trade() -> None:
 @pytest.mark.parametrize("rotation", ["ccw", "cw"])
 def test_a_shaft_beside_the_cylinder_trades_along_a_straight_line(rotation: str) -> None:
     # analytic: of the 5 kg that turn backwards m are taken, F = (5 - m) and M = m d of 0.1 omega^2, up to 4 kg
-    found = front(BESIDE | {"rotation": rotation}, points=5)
-    assert (found.status, found.knee) == ("optimal", None)
-    for point, share in zip(found.points, np.linspace(0.1, 0.5, 5), strict=True):
+    pareto_front = front(BESIDE | {"rotation": rotation}, points=5)
+    assert (pareto_front.status, pareto_front.knee) == ("optimal", None)
+    for point, share in zip(pareto_front.points, np.linspace(0.1, 0.5, 5), strict=True):
         assert point.force_peak_N == pytest.approx(share * WHOLE, rel=1e-5)
         assert point.moment_peak_Nm == pytest.approx((0.5 - share) * ARM * WHOLE, abs=1e-5 * WHOLE)
         assert point.force_peak_N + point.moment_peak_Nm / ARM == pytest.approx(0.5 * WHOLE, rel=1e-6)
@@ -101,11 +101,11 @@ def test_a_shaft_beside_the_cylinder_trades_along_a_straight_line(rotation: str)
 def test_points_are_what_masses_times_accelerations_come_to(rotation: str, goal: dict[str, Any]) -> None:
     """Independent: the pistons' first order and all unbalances of a point, at every angle."""
     body = inclined(rotation)
-    answer, shown = sound(body, objective=goal)
-    (found,) = answer.fronts
-    assert found.status == "optimal"
+    answer, reply = sound(body, objective=goal)
+    (pareto_front,) = answer.fronts
+    assert pareto_front.status == "optimal"
     across = goal.get("direction_weights", {"x": 1.0, "y": 1.0})
-    for point, there in zip(found.points, shown["fronts"][0]["points"], strict=True):
+    for point, there in zip(pareto_front.points, reply["fronts"][0]["points"], strict=True):
         turn = over_turn(body, there, first=True)
         weighted = across["x"] * turn.real + 1j * across["y"] * turn.imag
         plain = (point.force_peak_N, point.moment_peak_Nm)
@@ -122,10 +122,13 @@ def test_points_are_what_masses_times_accelerations_come_to(rotation: str, goal:
 def test_nobody_is_below_a_corner(seed: int) -> None:
     """Property: whatever crankshaft and balance shafts carry within their limits."""
     body, rng = inclined(), np.random.default_rng(seed)
-    found = front(body, points=5)
-    places = [body["webs"], *(each["webs"] for each in body["balance_shafts"])]
-    near = [found.points[int(rng.integers(len(found.points)))].model_dump()]
-    fitted = [near[0]["counterweights"], *(each["counterweights"] for each in near[0]["balance_shafts"])]
+    pareto_front = front(body, points=5)
+    places = [body["webs"], *(balance_shaft["webs"] for balance_shaft in body["balance_shafts"])]
+    near = [pareto_front.points[int(rng.integers(len(pareto_front.points)))].model_dump()]
+    fitted = [
+        near[0]["counterweights"],
+        *(balance_shaft["counterweights"] for balance_shaft in near[0]["balance_shafts"]),
+    ]
     scale = rng.choice([0.01, 0.3, 3.0])
     for webs, weights in zip(places, fitted, strict=True):
         for place, weight in zip(webs, weights, strict=True):
@@ -135,7 +138,7 @@ def test_nobody_is_below_a_corner(seed: int) -> None:
             weight["angle_deg"] = float(np.clip(angle, 220.0, 280.0)) if sector else angle
     force, moment = np.max(np.abs(over_turn(body, near[0], first=True)), axis=0)
     # samples are up to 0.1 % below the peak
-    assert not below_a_corner(float(force) * 1.001, float(moment) * 1.001, found)
+    assert not below_a_corner(float(force) * 1.001, float(moment) * 1.001, pareto_front)
 
 
 @pytest.mark.parametrize("turned", part(2, [137.0, 90.0]))
@@ -144,22 +147,22 @@ def test_a_machine_that_is_turned_or_mirrored_has_the_same_front(turned: float) 
     body = inclined()
     plain = front(body, points=4)
     for sign, by in ((1.0, turned), (-1.0, 0.0)):
-        other = deepcopy(body)
-        for each in other["throws"]:
-            each["crank_angle_deg"] = sign * each["crank_angle_deg"] + by
-            for row in each["rows"]:
+        second_machine = deepcopy(body)
+        for crank in second_machine["throws"]:
+            crank["crank_angle_deg"] = sign * crank["crank_angle_deg"] + by
+            for row in crank["rows"]:
                 row["axis_deg"] = sign * row["axis_deg"] + by
-        for each in other["balance_shafts"]:
-            for place in each["webs"]:
+        for balance_shaft in second_machine["balance_shafts"]:
+            for place in balance_shaft["webs"]:
                 if "sector" in place:
                     place["sector"]["centre_deg"] = sign * place["sector"]["centre_deg"] + by
-        other["rotation"] = "ccw" if sign > 0 else "cw"
-        again = front(other, points=4)
-        for one, two in zip(plain.points, again.points, strict=True):
+        second_machine["rotation"] = "ccw" if sign > 0 else "cw"
+        again = front(second_machine, points=4)
+        for point, two in zip(plain.points, again.points, strict=True):
             # where a front falls like a square root, a gap of 1e-6 is more of the other peak
-            assert two.force_peak_N == pytest.approx(one.force_peak_N, rel=1e-4)
-            assert two.moment_peak_Nm == pytest.approx(one.moment_peak_Nm, rel=1e-4)
-            assert two.balance_shafts_mass_kg == pytest.approx(one.balance_shafts_mass_kg, rel=1e-3)
+            assert two.force_peak_N == pytest.approx(point.force_peak_N, rel=1e-4)
+            assert two.moment_peak_Nm == pytest.approx(point.moment_peak_Nm, rel=1e-4)
+            assert two.balance_shafts_mass_kg == pytest.approx(point.balance_shafts_mass_kg, rel=1e-3)
 
 
 def test_fixed_weights_and_groups_stand_beside_shafts() -> None:
@@ -170,9 +173,9 @@ def test_fixed_weights_and_groups_stand_beside_shafts() -> None:
     ]  # fmt: skip
     body["web_groups"] = [{"name": "ends", "webs": ["a", "b"]}]
     answer, _ = sound(body)
-    (found,) = answer.fronts
-    assert found.status == "optimal"
-    for point in found.points:
+    (pareto_front,) = answer.fronts
+    assert pareto_front.status == "optimal"
+    for point in pareto_front.points:
         first, second, there = point.counterweights
         assert first.mass_kg == second.mass_kg
         assert first.angle_from_crank_deg == pytest.approx(second.angle_from_crank_deg, abs=1e-9)
@@ -182,52 +185,52 @@ def test_fixed_weights_and_groups_stand_beside_shafts() -> None:
 def test_shafts_without_limits_and_without_counterweights_have_a_front() -> None:
     body = single([shaft("back", -1, ARM, None), shaft("on", 1, 0.1, None)], webs=0)
     answer, _ = sound(body)
-    (found,) = answer.fronts
-    assert found.status == "optimal"
-    assert {"back web", "on web"} <= found.implied_max_mass_kg.keys()
-    assert all(point.total_mass_kg == 0.0 for point in found.points)
+    (pareto_front,) = answer.fronts
+    assert pareto_front.status == "optimal"
+    assert {"back web", "on web"} <= pareto_front.implied_max_mass_kg.keys()
+    assert all(point.total_mass_kg == 0.0 for point in pareto_front.points)
 
 
 def test_ceilings_out_of_reach_are_named_with_what_comes_closest() -> None:
     answer, _ = sound(single([shaft("back", -1, ARM, 2.0)], webs=0), objective={"force_ceiling_y_N": 0.1 * WHOLE})
-    (found,) = answer.fronts
-    assert (answer.status, found.status) == ("infeasible", "infeasible")
-    assert found.infeasibility is not None
-    assert found.infeasibility.conflict == ("force_ceiling_y_N",)
+    (pareto_front,) = answer.fronts
+    assert (answer.status, pareto_front.status) == ("infeasible", "infeasible")
+    assert pareto_front.infeasibility is not None
+    assert pareto_front.infeasibility.conflict == ("force_ceiling_y_N",)
     # analytic: 2 of the 5 kg that turn backwards
-    assert found.infeasibility.closest.balance_shafts[0].total_mass_kg == pytest.approx(2.0, rel=1e-6)
+    assert pareto_front.infeasibility.closest.balance_shafts[0].total_mass_kg == pytest.approx(2.0, rel=1e-6)
 
 
 @pytest.mark.parametrize(("orders", "most"), [("first", 0.5), ("all", 0.5)])
 def test_force_against_the_mass_of_all_shafts(orders: str, most: float) -> None:
     # independent: masses times accelerations; analytic: the mass that is traded is that of all shafts
-    found = trades(BESIDE, ["force", "mass"], objective={"orders": orders, "moment_weight": 0})
-    assert found.status == "optimal"
-    for point in found.points:
+    traded_front = trades(BESIDE, ["force", "mass"], objective={"orders": orders, "moment_weight": 0})
+    assert traded_front.status == "optimal"
+    for point in traded_front.points:
         force = np.max(np.abs(over_turn(BESIDE, point.model_dump(), first=orders == "first")[:, 0]))
         assert force == pytest.approx(point.values[0], rel=2e-3)
         assert point.values[1] == pytest.approx(point.total_mass_kg + point.balance_shafts_mass_kg, rel=1e-12)
     if orders == "first":
         # analytic: 0.1 of the force is left where 5 and 4 kg are taken
-        assert found.responses[0].smallest == pytest.approx(0.1 * WHOLE, rel=1e-5)
-        assert found.points[0].values[1] == pytest.approx(9.0, rel=1e-4)
+        assert traded_front.responses[0].smallest == pytest.approx(0.1 * WHOLE, rel=1e-5)
+        assert traded_front.points[0].values[1] == pytest.approx(9.0, rel=1e-4)
 
 
 @pytest.mark.parametrize("machine", part(2, [FOUR, FOUR | {"rotation": "cw"}]))
 def test_the_roll_moment_is_traded(machine: dict[str, Any]) -> None:
     """Independent: torque about the shaft, and forces of all orders, from their definitions."""
     goal = {"orders": "all", "roll_weight": 7.0, "moment_ceiling_Nm": 500.0}
-    found = trades(machine, ["force", "roll"], objective=goal)
-    assert found.status == "optimal"
-    assert [response.unit for response in found.responses] == ["N", "N m"]
-    for point in found.points:
-        shown = point.model_dump()
-        turn = over_turn(machine, shown, first=False)
-        torque = np.array([rolled(machine, shown, theta) for theta in np.arange(0.0, 360.0, 0.5)])
+    traded_front = trades(machine, ["force", "roll"], objective=goal)
+    assert traded_front.status == "optimal"
+    assert [response.unit for response in traded_front.responses] == ["N", "N m"]
+    for point in traded_front.points:
+        fields = point.model_dump()
+        turn = over_turn(machine, fields, first=False)
+        torque = np.array([rolled(machine, fields, theta) for theta in np.arange(0.0, 360.0, 0.5)])
         assert np.max(np.abs(turn[:, 0])) == pytest.approx(point.values[0], rel=2e-3)
         assert np.max(np.abs(torque)) == pytest.approx(point.values[1], rel=2e-3)
         assert np.max(np.abs(turn[:, 1])) <= 500.0 * (1 + 1e-9)
-    first, last = found.points[0], found.points[-1]
+    first, last = traded_front.points[0], traded_front.points[-1]
     assert first.values[0] < last.values[0]
     assert first.values[1] > last.values[1]
 
@@ -235,9 +238,9 @@ def test_the_roll_moment_is_traded(machine: dict[str, Any]) -> None:
 def test_the_roll_of_the_first_order_counts_a_shaft_that_turns_backwards() -> None:
     """Independent: its web stands for its mirror image beside responses of the first order."""
     body = single([shaft("back", -1, y_m=0.2, radius=0.05)])
-    found = trades(body, ["force", "roll", "mass"], points=6)
-    assert found.status == "optimal"
-    for point in found.points:
+    traded_front = trades(body, ["force", "roll", "mass"], points=6)
+    assert traded_front.status == "optimal"
+    for point in traded_front.points:
         torque = [rolled(body, point.model_dump(), theta) for theta in np.arange(0.0, 360.0, 0.5)]
         assert np.max(np.abs(torque)) == pytest.approx(point.values[1], rel=2e-3, abs=1e-6)
         force = np.max(np.abs(over_turn(body, point.model_dump(), first=True)[:, 0]))
@@ -290,17 +293,17 @@ def test_what_does_not_go_with_shafts_is_refused_by_its_field() -> None:
     ],
 )
 def test_a_figure_that_is_made_up_is_broken(path: tuple[str | int, ...]) -> None:
-    sent = {"machine": BESIDE, "points": 3, "multipliers": True}
-    shown = json.loads(pareto(ParetoRequest.model_validate(sent)).model_dump_json())
-    place = shown["fronts"][0]["points"][1]
+    body = {"machine": BESIDE, "points": 3, "multipliers": True}
+    answer = json.loads(pareto(ParetoRequest.model_validate(body)).model_dump_json())
+    place = answer["fronts"][0]["points"][1]
     for step in path[:-1]:
         place = place[step]
     place[path[-1]] *= 1.001
-    assert broken(sent, shown)
+    assert broken(body, answer)
     del place[path[-1]]
     tools = checker()
     try:
-        verdict = {claim["verdict"] for claim in tools.verify(sent, shown)["claims"]}
+        verdict = {claim["verdict"] for claim in tools.verify(body, answer)["claims"]}
     except tools.Unreadable:
         return
     assert verdict != {"held"}
@@ -309,9 +312,9 @@ def test_a_figure_that_is_made_up_is_broken(path: tuple[str | int, ...]) -> None
 def test_a_table_says_what_every_shaft_carries() -> None:
     request = ParetoRequest.model_validate({"machine": BESIDE, "points": 3})
     _, of_front = chapters(request, pareto(request))
-    shown = of_front.blocks[0]
-    assert [column.title for column in shown.columns if "kg" in column.title] == [
+    block = of_front.blocks[0]
+    assert [column.title for column in block.columns if "kg" in column.title] == [
         "mass on the crankshaft, kg",
         "on balance shafts, kg",
     ]
-    assert "largest mass of back web" in str(shown.rows[0])
+    assert "largest mass of back web" in str(block.rows[0])

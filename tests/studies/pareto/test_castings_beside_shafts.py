@@ -29,50 +29,50 @@ def forces(point: dict[str, Any]) -> tuple[float, float]:
 
 def test_force_and_moment_are_traded_by_the_shaft_alone() -> None:
     # analytic: beside the casting 1 of 5 kg is left that turns with the crank and 5 - m against it: F = 6 - m, M = m d
-    found = front(CASTING, points=5)
-    assert found.status == "optimal"
-    assert len(found.points) == 5
-    for point in found.points[:-1]:
+    pareto_front = front(CASTING, points=5)
+    assert pareto_front.status == "optimal"
+    assert len(pareto_front.points) == 5
+    for point in pareto_front.points[:-1]:
         assert (point.total_mass_kg, point.counterweights[0].angle_deg) == (4.0, 270.0)
         assert point.force_peak_N + point.moment_peak_Nm / ARM == pytest.approx(0.6 * WHOLE, rel=2e-3)
         assert forces(point.model_dump()) == pytest.approx((point.force_peak_N, point.moment_peak_Nm), rel=2e-3)
-    assert found.points[0].force_peak_N == pytest.approx(0.2 * WHOLE, rel=2e-3)
+    assert pareto_front.points[0].force_peak_N == pytest.approx(0.2 * WHOLE, rel=2e-3)
     # no ceiling is of what turns backwards too, so that the force at the other end is whatever the lightest leaves
-    assert found.points[-1].moment_peak_Nm == pytest.approx(0.0, abs=1e-9 * WHOLE)
+    assert pareto_front.points[-1].moment_peak_Nm == pytest.approx(0.0, abs=1e-9 * WHOLE)
 
 
 @pytest.mark.parametrize("orders", ["first", "all"])
 def test_force_is_traded_for_the_mass_of_castings_and_shafts(orders: str) -> None:
     # analytic: a kilogram on either shaft takes a tenth of the first order of 10 kg
-    (found,) = ask(CASTING, points=5, responses=["force", "mass"], objective={"orders": orders} | FORCE).trades
-    assert found.status == "optimal"
-    for point in found.points:
+    (trade,) = ask(CASTING, points=5, responses=["force", "mass"], objective={"orders": orders} | FORCE).trades
+    assert trade.status == "optimal"
+    for point in trade.points:
         assert point.total_mass_kg in (0.0, 4.0)
         mass = point.total_mass_kg + point.balance_shafts_mass_kg
         assert point.values[1] == pytest.approx(mass, abs=1e-12)
         assert orders == "all" or point.values[0] == pytest.approx((1.0 - 0.1 * mass) * WHOLE, rel=2e-3)
     # the lightest is nothing, under a budget of nothing
-    assert min(point.values[1] for point in found.points) == pytest.approx(0.0, abs=1e-6)
+    assert min(point.values[1] for point in trade.points) == pytest.approx(0.0, abs=1e-6)
 
 
 def test_castings_are_counted_on_the_crankshaft_alone() -> None:
     # analytic: without a casting the shaft takes 4 of 10 kg, with it 8
-    (found,) = ask(CASTING, counts={"of": "weights"}, objective=FORCE).counts
-    assert [(point.at_most, point.weights) for point in found.points] == [(0, 0), (1, 1)]
-    for point, left in zip(found.points, (0.6, 0.2), strict=True):
+    (count,) = ask(CASTING, counts={"of": "weights"}, objective=FORCE).counts
+    assert [(point.at_most, point.weights) for point in count.points] == [(0, 0), (1, 1)]
+    for point, left in zip(count.points, (0.6, 0.2), strict=True):
         assert point.value == pytest.approx(left * WHOLE, rel=1e-3)
         assert point.balance_shafts_mass_kg == pytest.approx(4.0, rel=1e-3)
         assert forces(point.model_dump())[0] == pytest.approx(point.force_peak_N, rel=2e-3)
-    titles = [column.title for column in count_table(found).columns]
+    titles = [column.title for column in count_table(count).columns]
     assert {"mass on the crankshaft, kg", "on balance shafts, kg"} <= {*titles}
 
 
 def test_the_least_mass_of_so_few_castings_is_that_of_all_shafts() -> None:
     # analytic: half of the 8 kg that may turn along y is enough for the ceiling, and the casting is of use to both
     goal = FORCE | {"force_ceiling_y_N": 0.6 * WHOLE}
-    (found,) = ask(CASTING, counts={"of": "weights", "least": "mass"}, objective=goal).counts
-    assert [point.status for point in found.points] == ["optimal"] * len(found.points)
-    for point in found.points:
+    (count,) = ask(CASTING, counts={"of": "weights", "least": "mass"}, objective=goal).counts
+    assert [point.status for point in count.points] == ["optimal"] * len(count.points)
+    for point in count.points:
         assert point.value == pytest.approx(4.0, rel=1e-3)
         assert point.value == pytest.approx(point.total_mass_kg + point.balance_shafts_mass_kg, rel=1e-9)
 
@@ -83,8 +83,8 @@ def test_castings_on_the_shaft_have_a_front_of_sets() -> None:
     body["balance_shafts"][0]["webs"][0] |= {"catalogue_masses_kg": [1.0, 2.0, 4.0], "hole_angles_deg": [270.0, 30.0]}
     both = front(body, points=9)
     assert (both.status, both.reason) == ("optimal", "complete")
-    found = [(point.force_peak_N / WHOLE, point.balance_shafts_mass_kg) for point in both.points]
-    assert found == [(pytest.approx(0.6 - 0.1 * mass), mass) for mass in (4.0, 2.0, 1.0, 0.0)]
+    values = [(point.force_peak_N / WHOLE, point.balance_shafts_mass_kg) for point in both.points]
+    assert values == [(pytest.approx(0.6 - 0.1 * mass), mass) for mass in (4.0, 2.0, 1.0, 0.0)]
     (of_mass,) = ask(body, points=6, responses=["force", "mass"], objective=FORCE).trades
     assert [point.values[1] for point in of_mass.points] == [8.0, 6.0, 4.0, 2.0, 1.0, 0.0]
     assert [point.values[0] / WHOLE for point in of_mass.points] == pytest.approx([0.2, 0.4, 0.6, 0.8, 0.9, 1.0])
@@ -98,11 +98,11 @@ def test_castings_on_the_shaft_have_a_front_of_sets() -> None:
 
 
 def test_the_ladder_of_castings_counts_them_apart() -> None:
-    found = accuracy({"machine": CASTING, "objective": FORCE, "repeats": 1})
-    assert found.status == "measured"
-    assert found.reference is not None
-    assert found.reference.objective == pytest.approx(0.2 * WHOLE, rel=1e-3)
-    for row in found.choices_ladder:
+    answer = accuracy({"machine": CASTING, "objective": FORCE, "repeats": 1})
+    assert answer.status == "measured"
+    assert answer.reference is not None
+    assert answer.reference.objective == pytest.approx(0.2 * WHOLE, rel=1e-3)
+    for row in answer.choices_ladder:
         if row.skipped is None:
             assert (row.pieces, row.sizes, row.limits_kept) == (1, 1, True)
             assert row.total_mass_kg == pytest.approx(8.0, rel=2e-2)

@@ -45,8 +45,8 @@ class Sets(NamedTuple):
 
     @property
     def objective(self) -> np.ndarray:
-        found: np.ndarray = self.force + self.moment / (PLANES[-1] - PLANES[0])
-        return found
+        force: np.ndarray = self.force + self.moment / (PLANES[-1] - PLANES[0])
+        return force
 
 
 def every_set(step_deg: float, masses: tuple[float, ...] = MASSES) -> Sets:
@@ -60,12 +60,12 @@ def every_set(step_deg: float, masses: tuple[float, ...] = MASSES) -> Sets:
         back_couple += z * 0.1 * 0.5 * mass * np.conj(crank)
     angles = np.radians(np.arange(0, 360, step_deg))
     mass = np.array([0.0, *np.repeat(masses, angles.size)])
-    one = mass * np.exp(1j * np.array([0.0, *np.tile(angles, len(masses))])) * RADIUS
+    weight = mass * np.exp(1j * np.array([0.0, *np.tile(angles, len(masses))])) * RADIUS
     part = np.array([-1, *np.repeat(np.arange(len(masses)), angles.size)])
     grid = np.array(np.meshgrid(*[np.arange(mass.size)] * 4, indexing="ij")).reshape(4, -1)
     # steps count from the own crank
-    u, kind = one[grid] * np.array([[1], [1], [1j], [1j]]), part[grid]
-    used = sum(np.any(kind == each, axis=0).astype(int) for each in range(len(masses)))
+    u, kind = weight[grid] * np.array([[1], [1], [1j], [1j]]), part[grid]
+    used = sum(np.any(kind == index, axis=0).astype(int) for index in range(len(masses)))
     return Sets(
         square * (np.abs(force + u.sum(axis=0)) + abs(back)),
         square * (np.abs(couple + np.array(PLANES) @ u) + abs(back_couple)),
@@ -75,10 +75,10 @@ def every_set(step_deg: float, masses: tuple[float, ...] = MASSES) -> Sets:
     )
 
 
-def front(asked: dict[str, Any], of: str, least: str, **more: Any) -> CountFront:
-    found = pareto(ParetoRequest.model_validate({**asked, "counts": {"of": of, "least": least}, **more}))
-    assert found.fronts == found.trades == ()
-    (counts,) = found.counts
+def front(fields: dict[str, Any], of: str, least: str, **more: Any) -> CountFront:
+    answer = pareto(ParetoRequest.model_validate({**fields, "counts": {"of": of, "least": least}, **more}))
+    assert answer.fronts == answer.trades == ()
+    (counts,) = answer.counts
     return counts
 
 
@@ -86,27 +86,27 @@ def test_a_million_sets() -> None:
     """Independent: the best, and the lightest of the best, of 31^4 = 923,521 sets by hand."""
     sets = every_set(36.0)
     assert sets.mass.size == 31**4
-    found = optimized(body(36.0))
-    assert found.certificate is not None
+    answer = optimized(body(36.0))
+    assert answer.certificate is not None
     best = float(np.min(sets.objective))
-    assert found.certificate.objective == pytest.approx(best, rel=1e-12)
-    assert found.certificate.lower_bound == pytest.approx(best, rel=1e-12)
-    assert found.status_reason.startswith("Proven optimal: of all sets")
+    assert answer.certificate.objective == pytest.approx(best, rel=1e-12)
+    assert answer.certificate.lower_bound == pytest.approx(best, rel=1e-12)
+    assert answer.status_reason.startswith("Proven optimal: of all sets")
     equal = sets.objective <= best * (1 + 1e-9)
-    assert found.total_mass_kg == pytest.approx(float(np.min(sets.mass[equal])), rel=1e-12)
+    assert answer.total_mass_kg == pytest.approx(float(np.min(sets.mass[equal])), rel=1e-12)
     # any masses at any angles are never worse
-    assert found.certificate.continuous_lower_bound is not None
-    assert found.certificate.continuous_lower_bound <= best
+    assert answer.certificate.continuous_lower_bound is not None
+    assert answer.certificate.continuous_lower_bound <= best
 
 
 @pytest.mark.parametrize("of", ["weights", "part_numbers"])
 def test_the_least_objective_of_every_number(of: str) -> None:
     """Independent: all 13^4 sets."""
     sets = every_set(90.0)
-    found = front(body(90.0), of, "objective")
-    assert found.status == "optimal"
-    assert [point.at_most for point in found.points] == list(range(len(found.points)))
-    for point in found.points:
+    count_front = front(body(90.0), of, "objective")
+    assert count_front.status == "optimal"
+    assert [point.at_most for point in count_front.points] == list(range(len(count_front.points)))
+    for point in count_front.points:
         allowed = getattr(sets, of) <= point.at_most
         best = float(np.min(sets.objective[allowed]))
         assert point.value == pytest.approx(best, rel=1e-12)
@@ -118,14 +118,14 @@ def test_the_least_objective_of_every_number(of: str) -> None:
         assert point.total_mass_kg == pytest.approx(float(np.min(sets.mass[equal])), rel=1e-12)
         assert len(point.counterweights) == 4
     # any more are of no use
-    assert found.points[-1].value == pytest.approx(float(np.min(sets.objective)), rel=1e-12)
+    assert count_front.points[-1].value == pytest.approx(float(np.min(sets.objective)), rel=1e-12)
 
 
 @pytest.mark.parametrize(("name", "of"), [("pieces", "weights"), ("sizes", "part_numbers")])
 def test_goals_name_what_is_counted_as_well(name: str, of: str) -> None:
-    found = front(body(90.0), name, "objective")
-    assert found.of == name
-    assert found.points == front(body(90.0), of, "objective").points
+    count_front = front(body(90.0), name, "objective")
+    assert count_front.of == name
+    assert count_front.points == front(body(90.0), of, "objective").points
 
 
 @pytest.mark.parametrize("of", ["weights", "part_numbers"])
@@ -135,13 +135,13 @@ def test_the_least_mass_of_every_number(of: str) -> None:
     few = np.flatnonzero(getattr(sets, of) <= (2 if of == "weights" else 1))
     best = few[np.argmin(sets.objective[few])]
     force, moment = 1.01 * float(sets.force[best]), 1.01 * float(sets.moment[best])
-    kept = (sets.force <= force) & (sets.moment <= moment)
+    mask = (sets.force <= force) & (sets.moment <= moment)
     goal = {"force_ceiling_N": force, "moment_ceiling_Nm": moment}
-    found = front(body(90.0, objective=goal), of, "mass")
-    assert found.status == "optimal"
-    assert found.points[0].status == "infeasible"
-    for point in found.points:
-        allowed = kept & (getattr(sets, of) <= point.at_most)
+    count_front = front(body(90.0, objective=goal), of, "mass")
+    assert count_front.status == "optimal"
+    assert count_front.points[0].status == "infeasible"
+    for point in count_front.points:
+        allowed = mask & (getattr(sets, of) <= point.at_most)
         if not np.any(allowed):
             assert point.status == "infeasible"
             assert (point.value, point.counterweights) == (None, ())
@@ -153,13 +153,13 @@ def test_the_least_mass_of_every_number(of: str) -> None:
         assert point.lower_bound <= lightest * (1 + 1e-9)
         assert point.force_peak_N is not None
         assert point.force_peak_N <= force * (1 + 1e-9)
-    assert found.points[-1].value == pytest.approx(float(np.min(sets.mass[kept])), rel=1e-9)
-    assert sum(point.status == "optimal" for point in found.points) >= 1
+    assert count_front.points[-1].value == pytest.approx(float(np.min(sets.mass[mask])), rel=1e-9)
+    assert sum(point.status == "optimal" for point in count_front.points) >= 1
 
 
 def test_budgets_and_ceilings_out_of_reach() -> None:
-    asked = body(90.0) | {"counts": {"of": "weights"}, "total_mass_budgets_kg": [10.0, 40.0]}
-    light, heavy = pareto(ParetoRequest.model_validate(asked)).counts
+    payload = body(90.0) | {"counts": {"of": "weights"}, "total_mass_budgets_kg": [10.0, 40.0]}
+    light, heavy = pareto(ParetoRequest.model_validate(payload)).counts
     assert (light.max_total_mass_kg, heavy.max_total_mass_kg) == (10.0, 40.0)
     assert all((point.total_mass_kg or 0.0) <= 10.0 for point in light.points)
     assert heavy.points[-1].value is not None
@@ -172,16 +172,18 @@ def test_budgets_and_ceilings_out_of_reach() -> None:
 
 
 def test_fewer_points_than_numbers() -> None:
-    found = front(body(90.0), "weights", "objective", points=2)
-    assert found.points[0].at_most == 0
-    assert len(found.points) == 2
+    count_front = front(body(90.0), "weights", "objective", points=2)
+    assert count_front.points[0].at_most == 0
+    assert len(count_front.points) == 2
 
 
 def test_a_search_that_runs_out_of_time_says_its_gap() -> None:
-    asked = body(5.0, tuple(np.arange(1.0, 20.0).tolist())) | {"accuracy": {"time_limit_s": 1e-6, "relative_gap": 1e-9}}
-    found = front(asked, "weights", "objective")
-    assert found.status == "inaccurate"
-    late = [point for point in found.points if point.status == "inaccurate"]
+    payload = body(5.0, tuple(np.arange(1.0, 20.0).tolist())) | {
+        "accuracy": {"time_limit_s": 1e-6, "relative_gap": 1e-9}
+    }
+    count_front = front(payload, "weights", "objective")
+    assert count_front.status == "inaccurate"
+    late = [point for point in count_front.points if point.status == "inaccurate"]
     assert late
     assert all(point.lower_bound is not None and point.lower_bound <= (point.value or 0.0) for point in late)
 
@@ -201,10 +203,10 @@ def test_what_does_not_go_together(change: dict[str, Any], path: tuple[str, ...]
 
 
 def test_without_a_catalogue_nothing_is_counted() -> None:
-    asked = body(90.0)
-    del asked["machine"]["catalogue"]
+    payload = body(90.0)
+    del payload["machine"]["catalogue"]
     with pytest.raises(ValidationError) as refused:
-        ParetoRequest.model_validate({**asked, "counts": {"of": "weights"}})
+        ParetoRequest.model_validate({**payload, "counts": {"of": "weights"}})
     assert ("counts",) in [problem.path for problem in refused.value.errors()[0]["ctx"]["problems"]]
 
 
@@ -214,17 +216,19 @@ def test_numbers_for_the_whole_turn(of: str) -> None:
     machine = choices.twin()
     chosen, u = choices.every_set(machine)
     loads = choices.Loads(machine).peak(u)
-    used = np.array([_used(one, of) for one in chosen])
-    found = front(choices.asked(machine, bearing_weight=1, force_weight=0, moment_weight=0), of, "objective")
-    assert found.status == "optimal"
-    assert [point.at_most for point in found.points] == list(range(len(found.points)))
-    for point in found.points:
+    used = np.array([_used(entry, of) for entry in chosen])
+    count_front = front(
+        choices.request_body(machine, bearing_weight=1, force_weight=0, moment_weight=0), of, "objective"
+    )
+    assert count_front.status == "optimal"
+    assert [point.at_most for point in count_front.points] == list(range(len(count_front.points)))
+    for point in count_front.points:
         best = float(np.min(loads[used <= point.at_most]))
         assert point.value is not None
         assert best * (1 - 1e-9) <= point.value <= best * (1 + choices.DEGREE)
         assert point.lower_bound == pytest.approx(point.value, rel=1e-5)
         assert point.status_reason
-    assert found.points[-1].value == pytest.approx(float(np.min(loads)), rel=choices.DEGREE)
+    assert count_front.points[-1].value == pytest.approx(float(np.min(loads)), rel=choices.DEGREE)
 
 
 @pytest.mark.parametrize("of", every(2, ["part_numbers", "weights"]))
@@ -233,17 +237,20 @@ def test_the_least_mass_for_the_whole_turn(of: str) -> None:
     machine = choices.twin()
     chosen, u = choices.every_set(machine)
     loads = choices.Loads(machine).peak(u)
-    used, mass = np.array([_used(one, of) for one in chosen]), np.array([sum(m for m, _ in one) for one in chosen])
+    used, mass = (
+        np.array([_used(entry, of) for entry in chosen]),
+        np.array([sum(m for m, _ in entry) for entry in chosen]),
+    )
     # between two loads, so that angles in between tell nothing else
     ordered = np.unique(loads)
     gap = np.flatnonzero(ordered[1:] > ordered[:-1] * (1 + 3 * choices.DEGREE))
     place = int(gap[gap >= 3][0])
     ceiling = float(0.5 * (ordered[place] + ordered[place + 1]))
-    asked = choices.asked(machine, moment_weight=0, bearing_ceiling_N=ceiling)
-    found = front(asked, of, "mass")
-    assert found.status == "optimal"
+    query = choices.request_body(machine, moment_weight=0, bearing_ceiling_N=ceiling)
+    count_front = front(query, of, "mass")
+    assert count_front.status == "optimal"
     statuses = set()
-    for point in found.points:
+    for point in count_front.points:
         allowed = (loads <= ceiling) & (used <= point.at_most)
         statuses.add(point.status)
         assert (point.status == "optimal") == bool(np.any(allowed)), point.status_reason
@@ -255,12 +262,13 @@ def test_the_least_mass_for_the_whole_turn(of: str) -> None:
 
 def test_masses_that_nothing_keeps_over_the_turn() -> None:
     """Independent: a ceiling below what any masses reach."""
-    asked = choices.asked(choices.twin(), moment_weight=0, bearing_ceiling_N=100.0)
+    query = choices.request_body(choices.twin(), moment_weight=0, bearing_ceiling_N=100.0)
     for least in ("objective", "mass"):
-        found = front(asked, "weights", least)
-        assert found.status == "infeasible"
+        count_front = front(query, "weights", least)
+        assert count_front.status == "infeasible"
         assert all(
-            (point.status, point.value, point.counterweights) == ("infeasible", None, ()) for point in found.points
+            (point.status, point.value, point.counterweights) == ("infeasible", None, ())
+            for point in count_front.points
         )
 
 
@@ -273,7 +281,7 @@ def _used(chosen: Any, of: str) -> int:
 def test_goals_in_their_order_are_no_front(more: dict[str, Any]) -> None:
     goal = {"bearing_weight": 1, "priorities": [{"goal": "external"}, {"goal": "bearings"}]}
     with pytest.raises(ValidationError) as refused:
-        front(choices.asked(choices.twin(), **goal), "weights", "objective", **more)
+        front(choices.request_body(choices.twin(), **goal), "weights", "objective", **more)
     problems = [problem.path for error in refused.value.errors() for problem in error["ctx"]["problems"]]
     assert ("objective", "priorities") in problems
 
@@ -282,16 +290,16 @@ def test_what_the_whole_turn_needs_is_named() -> None:
     machine = choices.twin()
     del machine["bearings"]
     with pytest.raises(MissingInput) as refused:
-        front(choices.asked(machine, bearing_weight=1), "weights", "objective")
+        front(choices.request_body(machine, bearing_weight=1), "weights", "objective")
     assert [problem.path for problem in refused.value.problems] == [("machine", "bearings")]
 
 
 def test_fewer_counterweights_than_sizes_are_counted_too() -> None:
     """Analytic: with no counterweight, and with one, there is no second size to leave out."""
-    asked = body(90.0, counts={"of": "pieces", "least": "objective"}, points=3)
-    free = pareto(ParetoRequest.model_validate(asked)).counts[0].points
-    asked["machine"]["catalogue"]["max_part_numbers"] = 2
-    two = pareto(ParetoRequest.model_validate(asked)).counts[0].points
+    payload = body(90.0, counts={"of": "pieces", "least": "objective"}, points=3)
+    free = pareto(ParetoRequest.model_validate(payload)).counts[0].points
+    payload["machine"]["catalogue"]["max_part_numbers"] = 2
+    two = pareto(ParetoRequest.model_validate(payload)).counts[0].points
     assert two[0].at_most == 0
     assert two[0].value == free[0].value
-    assert all((one.part_numbers or 0) <= 2 for one in two)
+    assert all((point.part_numbers or 0) <= 2 for point in two)

@@ -31,26 +31,26 @@ def machine(**changes: Any) -> Machine:
 STOCK = {"catalogue": {"masses_kg": [2.0, 4.0, 7.0], "angle_step_deg": 60}}
 
 
-def front(given: Machine, names: tuple[str, str] = ("objective", "mass"), **more: Any) -> TradedFront:
-    body = {"machine": given, "responses": names, "points": 6, "accuracy": {"relative_gap": 1e-6}, **more}
-    (found,) = pareto(body).trades
-    return found
+def front(fields: Machine, names: tuple[str, str] = ("objective", "mass"), **more: Any) -> TradedFront:
+    body = {"machine": fields, "responses": names, "points": 6, "accuracy": {"relative_gap": 1e-6}, **more}
+    (trade,) = pareto(body).trades
+    return trade
 
 
 @pytest.mark.parametrize("objective", [{}, {"combine": "max"}, {"moment_weight": 3.0, "force_weight": 0.5}])
 def test_of_any_mass_each_point_is_the_optimum_of_its_budget(objective: dict[str, Any]) -> None:
     """Independent: /v1/optimize under the mass of the point as the budget."""
-    found = front(machine(), objective=objective)
-    assert found.status == "optimal"
-    assert [one.unit for one in found.responses] == ["as weighed", "kg"]
-    for point in found.points:
+    traded_front = front(machine(), objective=objective)
+    assert traded_front.status == "optimal"
+    assert [response.unit for response in traded_front.responses] == ["as weighed", "kg"]
+    for point in traded_front.points:
         value, mass = point.values
         alone = optimize({"machine": machine(max_total_mass_kg=mass), "objective": objective}).certificate
         assert alone is not None
         size = alone.yardstick
         assert value == pytest.approx(alone.objective, abs=3e-6 * size)
         assert mass == pytest.approx(point.total_mass_kg, rel=1e-12)
-    masses = [point.values[1] for point in found.points]
+    masses = [point.values[1] for point in traded_front.points]
     assert masses == sorted(masses, reverse=True)
 
 
@@ -60,24 +60,24 @@ def sets() -> np.ndarray:
     options = [0.0, *(m * 0.15 * np.exp(1j * np.pi / 3 * n) for m in (2.0, 4.0, 7.0) for n in range(6))]
     crank, z, lever = np.array([1.0, 1j]), np.array([-0.3, 0.3]), np.array([-0.4, 0.4])
     turning, counter = 0.1 * (9.0 + 7.0) * crank, 0.1 * 7.0 * np.conj(crank)
-    found = []
-    for one, other in itertools.product(options, repeat=2):
-        u = np.array([one, other * 1j])
+    values = []
+    for option, second in itertools.product(options, repeat=2):
+        u = np.array([option, second * 1j])
         force = abs(np.sum(turning) + np.sum(u)) + abs(np.sum(counter))
         moment = abs(np.sum(z * turning) + np.sum(lever * u)) + abs(np.sum(z * counter))
-        found.append((square * (force + moment / span), (abs(one) + abs(other)) / 0.15))
-    return np.array(found)
+        values.append((square * (force + moment / span), (abs(option) + abs(second)) / 0.15))
+    return np.array(values)
 
 
 @pytest.mark.parametrize("names", [("objective", "mass"), ("mass", "objective")])
 def test_of_choices_no_set_beats_a_point(names: tuple[str, str]) -> None:
     """Brute force over 361 sets; the corners too are below none."""
-    found, every = front(machine(**STOCK), names, points=8), sets()
-    assert found.status == "optimal"
-    assert len(found.points) > 3
+    traded_front, every = front(machine(**STOCK), names, points=8), sets()
+    assert traded_front.status == "optimal"
+    assert len(traded_front.points) > 3
     place = names.index("objective")
-    size = found.responses[place].yardstick
-    for point in found.points:
+    size = traded_front.responses[place].yardstick
+    for point in traded_front.points:
         value, mass = point.values[place], point.values[1 - place]
         assert np.min(np.max(np.abs((every - (value, mass)) / (size, 1.0)), axis=-1)) < 1e-9
         within = every[every[:, 1] <= mass * (1 + 1e-9)]

@@ -43,21 +43,21 @@ def test_all_lines_of_a_front_are_within_the_same_limits(
         return optima(statement, gap, least_mass)
 
     monkeypatch.setattr(import_module(Trade.__module__), "optima", recorded)
-    found = front(traded(without_limits(sector, radius)), POINTS, 1e-6, True)
-    assert isinstance(found, Front)
+    frontier = front(traded(without_limits(sector, radius)), POINTS, 1e-6, True)
+    assert isinstance(frontier, Front)
     # before the lines each peak is made smallest within what is known to hold that
     lines = limits[2:]
-    within = found.trade.minimax.limits.max_mass.tolist()
+    within = frontier.trade.minimax.limits.max_mass.tolist()
     assert len(lines) > POINTS
-    assert all(one == within for one in lines)
-    assert all(first <= other for one in limits for first, other in zip(one, within, strict=True))
-    assert np.all(np.isfinite(found.trade.cap))
-    for point in found.points:
-        assert np.all(point.corner <= found.trade.cap)
-        assert np.all(point.mass_limit <= found.trade.cap)
-        peaks = found.trade.peaks(point.solution.unbalance)
-        rounding = found.trade.rounding(point.solution.unbalance)
-        assert not any(np.all(peaks + rounding < other.corner) for other in found.points)
+    assert all(line == within for line in lines)
+    assert all(first <= second for limit in limits for first, second in zip(limit, within, strict=True))
+    assert np.all(np.isfinite(frontier.trade.cap))
+    for point in frontier.points:
+        assert np.all(point.corner <= frontier.trade.cap)
+        assert np.all(point.mass_limit <= frontier.trade.cap)
+        peaks = frontier.trade.peaks(point.solution.unbalance)
+        rounding = frontier.trade.rounding(point.solution.unbalance)
+        assert not any(np.all(peaks + rounding < position.corner) for position in frontier.points)
 
 
 def test_the_bounds_of_a_front_without_limits_are_proven_by_its_multipliers() -> None:
@@ -82,24 +82,24 @@ def test_the_reach_of_a_trade_holds_all_up_to_its_peaks() -> None:
 
 
 def test_the_reach_of_a_trade_grows_with_its_peaks() -> None:
-    given = traded(without_limits((180.0, 30.0)))
-    near, far = (given.reach(factor * given.at_rest) for factor in (1.0, 3.0))
+    trade = traded(without_limits((180.0, 30.0)))
+    near, far = (trade.reach(factor * trade.at_rest) for factor in (1.0, 3.0))
     assert np.all(near <= far)
     assert np.all(far[1:] < LARGEST)
 
 
 def test_of_the_mass_of_what_is_beyond_the_limit_nothing_is_proven() -> None:
     """A mass is proven for peaks up to its limit: beyond it 0 kg for all, multipliers 0 (analytic)."""
-    found = front(traded(without_limits(None)), POINTS, 1e-6, True)
-    assert isinstance(found, Front)
-    for point in found.points:
+    frontier = front(traded(without_limits(None)), POINTS, 1e-6, True)
+    assert isinstance(frontier, Front)
+    for point in frontier.points:
         there = point.solution.unbalance
         assert point.solution.mass_lower_bound > 0.0
-        assert point.counting(found.trade, there) is point
+        assert point.counting(frontier.trade, there) is point
         far = there + 1e3 * (1.0 + np.abs(there))
-        peaks = found.trade.peaks(far)
+        peaks = frontier.trade.peaks(far)
         assert np.any(peaks > point.mass_limit)
-        beyond = point.counting(found.trade, far)
+        beyond = point.counting(frontier.trade, far)
         assert beyond.solution.mass_lower_bound == 0.0
         assert np.array_equal(beyond.mass_limit, np.maximum(point.mass_limit, peaks))
         assert beyond.mass_proof is not None

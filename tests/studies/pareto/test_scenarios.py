@@ -102,9 +102,9 @@ def test_no_best_worst_case_is_below_the_front(seed: int, first: int, exponent: 
         assert value >= best.certificate.lower_bound * (1 - 1e-12)
     # of unit weights the worst case of that answer is what the front trades
     alike = [{**case, "weight": 1.0} for case in scenarios]
-    plain, other = front(body, points=4, scenarios=alike), answered(body, objective=goal, scenarios=alike)
-    assert other.worst_case is not None
-    assert not below_a_corner(other.worst_case.force_peak_N, other.worst_case.moment_peak_Nm, plain, 1e-12)
+    plain, reply = front(body, points=4, scenarios=alike), answered(body, objective=goal, scenarios=alike)
+    assert reply.worst_case is not None
+    assert not below_a_corner(reply.worst_case.force_peak_N, reply.worst_case.moment_peak_Nm, plain, 1e-12)
 
 
 @given(SEEDS, st.sampled_from(range(3)))
@@ -144,8 +144,8 @@ def test_choices_are_those_that_no_other_beats_in_the_worst_scenario(weight: flo
         for force, moment in peaks
         if not np.any((peaks[:, 0] <= force) & (peaks[:, 1] <= moment) & np.any(peaks < [force, moment], axis=-1))
     }
-    shown = np.array([traded(point) for point in answer.points]) / OMEGA_SQUARED
-    assert shown == pytest.approx(np.array(sorted(best)), abs=2e-3)
+    actual = np.array([traded(point) for point in answer.points]) / OMEGA_SQUARED
+    assert actual == pytest.approx(np.array(sorted(best)), abs=2e-3)
 
 
 @pytest.mark.parametrize("responses", part(1, [("objective", "mass"), ("bearings", "mass")]))
@@ -191,18 +191,18 @@ def test_a_falsified_worst_case_is_broken() -> None:
     request = {"machine": random_machine(1), "points": 3, "multipliers": True}
     request["scenarios"] = [scenario("as it is"), CASES[1](request["machine"])]
     answer = ask(request["machine"], **{name: request[name] for name in ("points", "multipliers", "scenarios")})
-    told = json.loads(answer.model_dump_json())
-    assert checker().verify(request, told)["verdict"] == "held"
+    document = json.loads(answer.model_dump_json())
+    assert checker().verify(request, document)["verdict"] == "held"
     for field in ("weighted_force_peak_N", "weighted_moment_peak_Nm", "force_peak_N"):
-        text = json.loads(json.dumps(told))
+        text = json.loads(json.dumps(document))
         text["fronts"][0]["points"][1][field] *= 0.999
         assert checker().verify(request, text)["verdict"] == "broken", field
-    text = json.loads(json.dumps(told))
+    text = json.loads(json.dumps(document))
     text["fronts"][0]["points"][1]["worst_case"]["force_peak_N"] *= 0.999
     assert checker().verify(request, text)["verdict"] == "broken"
     # another scenario has another worst case
     lighter = [scenario("as it is"), {**request["scenarios"][1], "weight": 0.5}]
-    assert checker().verify({**request, "scenarios": lighter}, told)["verdict"] == "broken"
+    assert checker().verify({**request, "scenarios": lighter}, document)["verdict"] == "broken"
 
 
 @pytest.mark.parametrize(

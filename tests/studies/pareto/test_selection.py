@@ -20,7 +20,7 @@ def points(*peaks: tuple[float, float]) -> list[ParetoPoint]:
 
 
 @pytest.mark.parametrize(
-    ("given", "kept"),
+    ("values", "entries"),
     [
         ([(1, 9), (2, 5), (3, 1)], [(1, 9), (2, 5), (3, 1)]),
         ([(3, 1), (1, 9), (2, 5)], [(1, 9), (2, 5), (3, 1)]),
@@ -31,13 +31,13 @@ def points(*peaks: tuple[float, float]) -> list[ParetoPoint]:
     ],
 )
 def test_points_that_another_equals_or_beats_are_left_out(
-    given: list[tuple[float, float]], kept: list[tuple[float, float]]
+    values: list[tuple[float, float]], entries: list[tuple[float, float]]
 ) -> None:
-    assert [weighted_peaks(one) for one in undominated(points(*given), weighted_peaks)] == kept
+    assert [weighted_peaks(position) for position in undominated(points(*values), weighted_peaks)] == entries
 
 
 @pytest.mark.parametrize(
-    ("given", "index"),
+    ("values", "index"),
     [
         ([(0, 9)], None),
         ([(0, 9), (9, 0)], None),
@@ -47,5 +47,5 @@ def test_points_that_another_equals_or_beats_are_left_out(
         ([(0, 9), (2, 5), (3, 2), (9, 0)], 2),
     ],
 )
-def test_the_knee_is_farthest_from_the_chord(given: list[tuple[float, float]], index: int | None) -> None:
-    assert knee(points(*given)) == index
+def test_the_knee_is_farthest_from_the_chord(values: list[tuple[float, float]], index: int | None) -> None:
+    assert knee(points(*values)) == index

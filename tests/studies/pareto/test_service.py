@@ -49,16 +49,16 @@ def test_route_answers_with_fronts(client: TestClient) -> None:
     assert response.headers["cache-control"] == "no-store"
     answer = response.json()
     assert answer["status"] == "optimal"
-    assert [one["max_total_mass_kg"] for one in answer["fronts"]] == [9.0718474, 40]
-    for found in answer["fronts"]:
-        assert len(found["points"]) == 3
-        for point in found["points"]:
-            assert [one["web"] for one in point["counterweights"]] == ["a", "b", "c", "d"]
+    assert [front["max_total_mass_kg"] for front in answer["fronts"]] == [9.0718474, 40]
+    for frontier in answer["fronts"]:
+        assert len(frontier["points"]) == 3
+        for point in frontier["points"]:
+            assert [counterweight["web"] for counterweight in point["counterweights"]] == ["a", "b", "c", "d"]
 
 
 def test_default_is_one_front_of_21_points(client: TestClient) -> None:
     answer = client.post("/v1/pareto", json={"machine": straight()}).json()
-    assert [len(one["points"]) for one in answer["fronts"]] == [21]
+    assert [len(front["points"]) for front in answer["fronts"]] == [21]
 
 
 def test_infeasible_is_answered_with_200(client: TestClient) -> None:
@@ -94,14 +94,14 @@ def test_refusals_name_the_field(client: TestClient, fields: dict[str, Any], poi
     response = client.post("/v1/pareto", json={"machine": straight(), **fields})
     assert response.status_code == 422
     assert response.headers["content-type"] == "application/problem+json"
-    assert [one["pointer"] for one in response.json()["errors"]] == [pointer]
+    assert [error["pointer"] for error in response.json()["errors"]] == [pointer]
 
 
 def test_too_large_together_is_refused(client: TestClient) -> None:
     webs = [{**four_webs()["webs"][0], "name": str(k)} for k in range(200)]
     response = client.post("/v1/pareto", json={"machine": {**four_webs(), "webs": webs}, "points": 201})
     assert response.status_code == 422
-    assert [one["pointer"] for one in response.json()["errors"]] == ["/points"]
+    assert [error["pointer"] for error in response.json()["errors"]] == ["/points"]
 
 
 def test_command_line_prints_a_table(write: Callable[..., str]) -> None:
@@ -135,7 +135,7 @@ def test_command_line_reads_standard_input_and_options_replace_fields() -> None:
     )
     assert result.exit_code == 0
     fronts = json.loads(result.stdout)["fronts"]
-    assert [(one["max_total_mass_kg"], len(one["points"])) for one in fronts] == [(2, 4), (3, 4)]
+    assert [(front["max_total_mass_kg"], len(front["points"])) for front in fronts] == [(2, 4), (3, 4)]
 
 
 def test_command_line_says_infeasible_with_code_1(write: Callable[..., str]) -> None:

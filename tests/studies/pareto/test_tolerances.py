@@ -92,10 +92,10 @@ def test_a_ceiling_holds_in_the_worst_case() -> None:
 def test_tolerances_of_nothing_are_none() -> None:
     plain, stated = front(straight(), points=3), front(straight(), points=3, tolerances={})
     assert [point.worst_case for point in plain.points] == [None] * 3
-    for item, other in zip(plain.points, stated.points, strict=True):
-        assert other.worst_case is not None
-        assert (other.worst_case.force_peak_N, other.worst_case.moment_peak_Nm) == traded(item)
-        assert other.model_copy(update={"worst_case": None}) == item
+    for item, position in zip(plain.points, stated.points, strict=True):
+        assert position.worst_case is not None
+        assert (position.worst_case.force_peak_N, position.worst_case.moment_peak_Nm) == traded(item)
+        assert position.model_copy(update={"worst_case": None}) == item
 
 
 @given(SEEDS, st.sampled_from(TOLERANCES), st.floats(-2, 2))
@@ -160,8 +160,8 @@ def test_choices_are_those_that_no_other_beats_in_the_worst_case(tolerances: dic
         for force, moment in peaks
         if not np.any((peaks[:, 0] <= force) & (peaks[:, 1] <= moment) & np.any(peaks < [force, moment], axis=-1))
     }
-    shown = np.array([traded(point) for point in answer.points]) / OMEGA_SQUARED
-    assert shown == pytest.approx(np.array(sorted(best)), abs=2e-3)
+    values = np.array([traded(point) for point in answer.points]) / OMEGA_SQUARED
+    assert values == pytest.approx(np.array(sorted(best)), abs=2e-3)
 
 
 def test_force_against_mass() -> None:
@@ -215,8 +215,8 @@ def test_ends_of_next_to_no_counterweights_are_certified(name: str, tolerances: 
     answer = ask(body, points=3, tolerances=tolerances)
     assert answer.status == "optimal"
     assert len(answer.fronts[0].points) == 3
-    sent = {"machine": body, "points": 3, "tolerances": tolerances}
-    assert verdict(sent, answer)["verdict"] != "broken"
+    payload = {"machine": body, "points": 3, "tolerances": tolerances}
+    assert verdict(payload, answer)["verdict"] != "broken"
 
 
 @pytest.mark.parametrize(

@@ -30,17 +30,17 @@ def ask(body: dict[str, Any], **more: Any) -> ParetoAnswer:
 
 def front(body: dict[str, Any], **more: Any) -> TradedFront:
     answer = ask(body, **more)
-    (found,) = answer.trades
+    (trade,) = answer.trades
     assert answer.fronts == ()
-    assert found.status == answer.status == "optimal"
-    for point in found.points:
+    assert trade.status == answer.status == "optimal"
+    for point in trade.points:
         corner = np.array(point.certificate.corner, dtype=float)
-        yardstick = np.array([one.yardstick for one in found.responses])
+        yardstick = np.array([response.yardstick for response in trade.responses])
         # property: nothing is claimed that the gap does not tell
         gap = point.certificate.relative_gap
         assert gap is not None
         assert np.all(np.array(point.values) - corner <= (gap + 1e-14) * yardstick)
-    return found
+    return trade
 
 
 @pytest.mark.parametrize("response", ["force", "bearings", "bending"])
@@ -48,12 +48,15 @@ def test_a_rotating_mass_is_traded_for_iron_along_a_line(response: str) -> None:
     # analytic: omega = 100 rad/s, 1 kg m of which every kilogram of iron takes 0.2; by the lever rule 3/4 on bearing A,
     # and 3/4 * 0.1 m of bending
     share = {"force": 1.0, "bearings": 0.75, "bending": 0.075}[response]
-    found = front({"machine": ROTOR}, responses=[response, "mass"], points=4)
-    values = np.array([point.values for point in found.points])
+    traded_front = front({"machine": ROTOR}, responses=[response, "mass"], points=4)
+    values = np.array([point.values for point in traded_front.points])
     assert values[:, 0] == pytest.approx(share * 1e4 * (1.0 - 0.2 * values[:, 1]), abs=share * 0.05)
     assert values[[0, -1], 1] == pytest.approx([5.0, 0.0], abs=1e-4)
-    assert [one.unit for one in found.responses] == [{"force": "N", "bearings": "N", "bending": "N m"}[response], "kg"]
-    assert [point.beaten_by for point in found.points] == [None] * 4
+    assert [reply.unit for reply in traded_front.responses] == [
+        {"force": "N", "bearings": "N", "bending": "N m"}[response],
+        "kg",
+    ]
+    assert [point.beaten_by for point in traded_front.points] == [None] * 4
 
 
 @pytest.mark.parametrize("responses", [["force", "mass"], ["objective", "mass"], ["force", "moment", "mass"]])
@@ -61,31 +64,33 @@ def test_a_rotating_mass_is_traded_for_iron_along_a_line(response: str) -> None:
 def test_without_webs_the_mass_is_nothing(responses: list[str], catalogue: bool) -> None:
     # regression: an internal fault, as a sum of no terms held no anchor
     machine = {**ROTOR, "webs": [], "catalogue": {"mass_step_kg": 1.0} if catalogue else None}
-    found = front({"machine": machine}, responses=responses, points=3)
+    traded_front = front({"machine": machine}, responses=responses, points=3)
     # analytic: omega = 100 rad/s and 1 kg m in the plane of moments, which is that of the throw
     there = {"force": 1e4, "objective": 1e4, "moment": 0.0, "mass": 0.0}
-    for point in found.points:
+    for point in traded_front.points:
         assert point.values == pytest.approx([there[name] for name in responses], abs=1e-6)
-    assert found.reason == "reached_together"
+    assert traded_front.reason == "reached_together"
 
 
 def test_ends_are_the_single_optima() -> None:
     # independent: the optimum of one objective
     body = opposed()
-    found = front(body, responses=["bearings", "moment"], points=3)
-    for one, weights in zip(found.responses, ({"bearing_weight": 1.0}, {"moment_weight": 1.0}), strict=True):
+    traded_front = front(body, responses=["bearings", "moment"], points=3)
+    for response, weights in zip(
+        traded_front.responses, ({"bearing_weight": 1.0}, {"moment_weight": 1.0}), strict=True
+    ):
         objective = {"force_weight": 0.0, "moment_weight": 0.0, **weights}
         alone = optimize(OptimizeRequest.model_validate({"machine": body["machine"], "objective": objective}))
-        assert one.smallest == pytest.approx(alone.certificate.objective, abs=2e-6 * one.yardstick)
-        assert one.lower_bound <= alone.certificate.objective * (1.0 + 1e-9)
-        assert one.without_counterweights == pytest.approx(alone.certificate.objective_without_counterweights)
+        assert response.smallest == pytest.approx(alone.certificate.objective, abs=2e-6 * response.yardstick)
+        assert response.lower_bound <= alone.certificate.objective * (1.0 + 1e-9)
+        assert response.without_counterweights == pytest.approx(alone.certificate.objective_without_counterweights)
 
 
 def test_three_responses_make_a_triangle_whose_points_do_not_beat_each_other() -> None:
-    found = front(opposed(), responses=["bearings", "moment", "mass"], points=6)
-    assert len(found.points) == 6
-    values = np.array([point.values for point in found.points])
-    for n, point in enumerate(found.points):
+    traded_front = front(opposed(), responses=["bearings", "moment", "mass"], points=6)
+    assert len(traded_front.points) == 6
+    values = np.array([point.values for point in traded_front.points])
+    for n, point in enumerate(traded_front.points):
         better = np.all(values <= values[n], axis=1) & np.any(values < values[n], axis=1)
         assert (point.beaten_by is not None) == np.any(better)
         assert point.values[2] == pytest.approx(point.total_mass_kg, abs=1e-9)
@@ -96,7 +101,7 @@ def test_force_and_moment_by_name_are_the_usual_front() -> None:
     named, (usual,) = front(body, responses=["force", "moment"], points=2), ask(body, points=2).fronts
     ends = usual.ends
     assert ends is not None
-    assert [one.smallest for one in named.responses] == pytest.approx(
+    assert [response.smallest for response in named.responses] == pytest.approx(
         [ends.smallest_force_N, ends.smallest_moment_Nm], rel=2e-6, abs=1e-6
     )
 
@@ -104,8 +109,8 @@ def test_force_and_moment_by_name_are_the_usual_front() -> None:
 def test_budgets_and_ceilings_out_of_reach() -> None:
     answer = ask({"machine": ROTOR}, responses=["force", "bending"], points=2, total_mass_budgets_kg=[1, 2])
     # analytic: both fall together, by what the budget allows
-    assert [found.reason for found in answer.trades] == ["reached_together"] * 2
-    assert [found.points[0].values[0] for found in answer.trades] == pytest.approx([8000, 6000], abs=0.02)
+    assert [trade.reason for trade in answer.trades] == ["reached_together"] * 2
+    assert [trade.points[0].values[0] for trade in answer.trades] == pytest.approx([8000, 6000], abs=0.02)
     light = {**ROTOR, "max_total_mass_kg": 1.0}
     never = ask({"machine": light, "objective": {"bending_ceiling_Nm": 1.0}}, responses=["force", "mass"])
     assert (never.status, never.trades[0].points) == ("infeasible", ())

@@ -28,13 +28,13 @@ def body(mass_step_kg: float = 0.5, angle_step_deg: float = 5.0, **more: Any) ->
     return {"request": request, "mass_step_kg": mass_step_kg, "angle_step_deg": angle_step_deg}
 
 
-def on_steps(asked: Body) -> RoundAnswer:
-    return round_weights(check(RoundRequest, asked))
+def on_steps(request: Body) -> RoundAnswer:
+    return round_weights(check(RoundRequest, request))
 
 
-def value_of(asked: Body, masses: Any, angles: Any) -> tuple[float, OptimizeAnswer]:
+def value_of(payload: Body, masses: Any, angles: Any) -> tuple[float, OptimizeAnswer]:
     """Independent: what weights come to where they are all fixed, inf where they keep no ceiling or budget."""
-    request = copy.deepcopy(asked["request"])
+    request = copy.deepcopy(payload["request"])
     request["machine"].pop("web_groups", None)
     for web, mass, angle in zip(request["machine"]["webs"], masses, angles, strict=True):
         for name in ("sector", "min_fitted_mass_kg", "max_centrifugal_force_N"):
@@ -43,45 +43,48 @@ def value_of(asked: Body, masses: Any, angles: Any) -> tuple[float, OptimizeAnsw
     total = sum(web["fixed"]["mass_kg"] for web in request["machine"]["webs"])
     if total > request["machine"].pop("max_total_mass_kg", np.inf) * (1 + 1e-12):
         return np.inf, None  # type: ignore[return-value]
-    found = optimize(check(OptimizeRequest, request))
-    return (np.inf if found.certificate is None else found.certificate.objective), found
+    answer = optimize(check(OptimizeRequest, request))
+    return (np.inf if answer.certificate is None else answer.certificate.objective), answer
 
 
-def best_by_hand(asked: Body, cranks: dict[str, float]) -> float:
+def best_by_hand(request: Body, cranks: dict[str, float]) -> float:
     """Independent: the smallest of all roundings of the optimum, one by one."""
-    free = optimize(check(OptimizeRequest, asked["request"]))
-    mass_step, angle_step = asked["mass_step_kg"], asked["angle_step_deg"]
-    options, of_web = [], {web["name"]: web for web in asked["request"]["machine"]["webs"]}
-    groups = {name: g["webs"] for g in asked["request"]["machine"].get("web_groups", []) for name in g["webs"]}
-    for one in free.counterweights:
+    free = optimize(check(OptimizeRequest, request["request"]))
+    mass_step, angle_step = request["mass_step_kg"], request["angle_step_deg"]
+    options, of_web = [], {web["name"]: web for web in request["request"]["machine"]["webs"]}
+    groups = {name: g["webs"] for g in request["request"]["machine"].get("web_groups", []) for name in g["webs"]}
+    for counterweight in free.counterweights:
         least, most = (
-            of_web[one.web].get(name, other) for name, other in (("min_fitted_mass_kg", 0.0), ("max_mass_kg", np.inf))
+            of_web[counterweight.web].get(name, value)
+            for name, value in (("min_fitted_mass_kg", 0.0), ("max_mass_kg", np.inf))
         )
-        if one.fixed or one.mass_kg == 0.0:
+        if counterweight.fixed or counterweight.mass_kg == 0.0:
             options.append([(0.0, 0.0)])
             continue
-        places = (one.mass_kg / mass_step, (one.angle_deg - cranks[one.web]) / angle_step)
+        places = (counterweight.mass_kg / mass_step, (counterweight.angle_deg - cranks[counterweight.web]) / angle_step)
         either = [{round(p)} if abs(p - round(p)) < 1e-7 else {int(np.floor(p)), int(np.ceil(p))} for p in places]
-        found = [(n * mass_step, (cranks[one.web] + i * angle_step) % 360) for n in either[0] for i in either[1]]
-        sector = of_web[one.web].get("sector")
+        values = [
+            (n * mass_step, (cranks[counterweight.web] + i * angle_step) % 360) for n in either[0] for i in either[1]
+        ]
+        sector = of_web[counterweight.web].get("sector")
         if sector is not None:
-            found = [
+            values = [
                 (mass, angle)
-                for mass, angle in found
+                for mass, angle in values
                 if abs((angle - sector["centre_deg"] + 180) % 360 - 180) <= sector["half_angle_deg"] + 1e-9
             ]
-        options.append([(0.0, 0.0), *((mass, angle) for mass, angle in found if mass > 0 and least <= mass <= most)])
-    names, best = [one.web for one in free.counterweights], np.inf
+        options.append([(0.0, 0.0), *((mass, angle) for mass, angle in values if mass > 0 and least <= mass <= most)])
+    names, best = [weight.web for weight in free.counterweights], np.inf
     for some in product(*options):
         placed = dict(zip(names, some, strict=True))
-        if all(_alike(placed, cranks, groups[name], asked) for name in groups):
-            best = min(best, value_of(asked, *zip(*some, strict=True))[0])
+        if all(_alike(placed, cranks, groups[name], request) for name in groups):
+            best = min(best, value_of(request, *zip(*some, strict=True))[0])
     return best
 
 
-def _alike(placed: dict[str, tuple[float, float]], cranks: dict[str, float], group: list[str], asked: Body) -> bool:
+def _alike(placed: dict[str, tuple[float, float]], cranks: dict[str, float], group: list[str], request: Body) -> bool:
     """Whether the webs of a group carry the same on their own cranks, or each other's mirror images."""
-    mirror = next(g.get("mirror", False) for g in asked["request"]["machine"]["web_groups"] if g["webs"] == group)
+    mirror = next(g.get("mirror", False) for g in request["request"]["machine"]["web_groups"] if g["webs"] == group)
     masses = {placed[name][0] for name in group}
     turns = [(-1 if mirror and n % 2 else 1) * (placed[name][1] - cranks[name]) % 360 for n, name in enumerate(group)]
     level = 0.0 in masses or np.ptp(np.cos(np.radians(turns))) + np.ptp(np.sin(np.radians(turns))) < 1e-9
@@ -148,54 +151,66 @@ ASKED = {
 
 @pytest.mark.parametrize("name", every(2 if ALL else 4, ASKED))
 def test_the_best_of_all_roundings(name: str) -> None:
-    asked = ASKED[name]
-    found = on_steps(asked)
-    assert found.status == "optimal", found.status_reason
-    assert found.certificate is not None
-    assert found.rounding is not None
-    best = best_by_hand(asked, CRANKS)
-    assert found.certificate.objective == pytest.approx(best, rel=1e-8)
+    fields = ASKED[name]
+    answer = on_steps(fields)
+    assert answer.status == "optimal", answer.status_reason
+    assert answer.certificate is not None
+    assert answer.rounding is not None
+    best = best_by_hand(fields, CRANKS)
+    assert answer.certificate.objective == pytest.approx(best, rel=1e-8)
     # independent: the same weights as they are, fixed
     fixed, _ = value_of(
-        asked, [one.mass_kg for one in found.counterweights], [one.angle_deg for one in found.counterweights]
+        fields,
+        [counterweight.mass_kg for counterweight in answer.counterweights],
+        [counterweight.angle_deg for counterweight in answer.counterweights],
     )
-    assert found.certificate.objective == pytest.approx(fixed, rel=1e-8)
-    cost = found.rounding
-    assert cost.objective_rise == pytest.approx(found.certificate.objective - cost.optimum.objective, rel=1e-7)
+    assert answer.certificate.objective == pytest.approx(fixed, rel=1e-8)
+    cost = answer.rounding
+    assert cost.objective_rise == pytest.approx(answer.certificate.objective - cost.optimum.objective, rel=1e-7)
     if cost.nearest.limits_kept:
-        assert found.certificate.objective <= cost.nearest.objective * (1 + 1e-9)
-    on_its_steps(found, asked)
+        assert answer.certificate.objective <= cost.nearest.objective * (1 + 1e-9)
+    on_its_steps(answer, fields)
 
 
-def on_its_steps(found: RoundAnswer, asked: Body) -> None:
+def on_its_steps(answer: RoundAnswer, request: Body) -> None:
     """Analytic: whole multiples of the steps."""
-    for one in found.counterweights:
-        if one.mass_kg and not one.fixed:
-            places = one.mass_kg / asked["mass_step_kg"], (one.angle_deg - CRANKS[one.web]) / asked["angle_step_deg"]
+    for counterweight in answer.counterweights:
+        if counterweight.mass_kg and not counterweight.fixed:
+            places = (
+                counterweight.mass_kg / request["mass_step_kg"],
+                (counterweight.angle_deg - CRANKS[counterweight.web]) / request["angle_step_deg"],
+            )
             assert np.allclose(places, np.round(places), rtol=0, atol=1e-9)
 
 
 def test_the_example_of_the_workshop() -> None:
     """Regression: 46 and 39.5 kg, as rounded by hand, cost 4.2 % of the objective; the angles cost most of it."""
-    found = on_steps(body())
-    assert found.certificate is not None
-    assert found.rounding is not None
-    assert [(one.web, one.mass_kg, one.angle_deg) for one in found.counterweights if one.mass_kg] == [
+    answer = on_steps(body())
+    assert answer.certificate is not None
+    assert answer.rounding is not None
+    assert [
+        (counterweight.web, counterweight.mass_kg, counterweight.angle_deg)
+        for counterweight in answer.counterweights
+        if counterweight.mass_kg
+    ] == [
         ("1a", 46.0, 220.0),
         ("4b", 39.5, 40.0),
     ]
-    assert found.certificate.objective == pytest.approx(42252.017, rel=1e-6)
-    assert found.rounding.relative_rise == pytest.approx(0.04199, rel=1e-3)
-    assert found.rounding.angles_alone_rise > 5 * found.rounding.masses_alone_rise > 0
+    assert answer.certificate.objective == pytest.approx(42252.017, rel=1e-6)
+    assert answer.rounding.relative_rise == pytest.approx(0.04199, rel=1e-3)
+    assert answer.rounding.angles_alone_rise > 5 * answer.rounding.masses_alone_rise > 0
     # independent: each of two weights a step off, as analysed
-    for step in found.rounding.steps:
-        weights = {one.web: (one.mass_kg, one.angle_deg) for one in found.counterweights}
+    for step in answer.rounding.steps:
+        weights = {
+            counterweight.web: (counterweight.mass_kg, counterweight.angle_deg)
+            for counterweight in answer.counterweights
+        }
         mass, angle = weights[step.web]
         moved = {"lighter": (mass - 0.5, angle), "heavier": (mass + 0.5, angle)}
         moved |= {"backward": (mass, angle - 5), "forward": (mass, angle + 5)}
         for name, placed in moved.items():
             value, _ = value_of(body(), *zip(*{**weights, step.web: placed}.values(), strict=True))
-            rise = value - found.certificate.objective
+            rise = value - answer.certificate.objective
             assert getattr(step, name) == pytest.approx(rise, rel=1e-6, abs=1e-6)
 
 
@@ -205,18 +220,18 @@ def test_never_worse_than_the_nearest_steps_whatever_the_time(seed: int) -> None
     machine = changed()
     for throw in machine["throws"]:
         throw["rows"][0]["reciprocating_mass_kg"] = float(chance.uniform(100, 500))
-    asked = body(float(chance.choice([1, 5, 20])), float(chance.choice([10, 30])), machine=machine)
-    asked["request"]["accuracy"] = {"time_limit_s": 1e-3 if seed % 2 else 5.0}
-    found = on_steps(asked)
-    assert found.certificate is not None
-    assert found.rounding is not None
-    assert found.certificate.objective <= found.rounding.nearest.objective * (1 + 1e-9)
-    on_its_steps(found, asked)
+    payload = body(float(chance.choice([1, 5, 20])), float(chance.choice([10, 30])), machine=machine)
+    payload["request"]["accuracy"] = {"time_limit_s": 1e-3 if seed % 2 else 5.0}
+    answer = on_steps(payload)
+    assert answer.certificate is not None
+    assert answer.rounding is not None
+    assert answer.certificate.objective <= answer.rounding.nearest.objective * (1 + 1e-9)
+    on_its_steps(answer, payload)
 
 
 def test_where_nothing_keeps_the_ceilings_nothing_is_rounded() -> None:
-    found = on_steps(body(objective={**OBJECTIVE, "force_ceiling_N": 1.0}))
-    assert (found.status, found.rounding, found.certificate) == ("infeasible", None, None)
+    answer = on_steps(body(objective={**OBJECTIVE, "force_ceiling_N": 1.0}))
+    assert (answer.status, answer.rounding, answer.certificate) == ("infeasible", None, None)
     # steps that none of the roundings of an optimum at its ceiling keeps
     tight = on_steps(body(40, 60, objective={**OBJECTIVE, "moment_ceiling_Nm": 1.0195e5}))
     assert (tight.status, tight.rounding) == ("infeasible", None)
@@ -244,8 +259,8 @@ WRONG = {
 }  # fmt: skip
 
 
-@pytest.mark.parametrize(("asked", "pointer"), WRONG.values(), ids=WRONG)
-def test_what_cannot_be_rounded_is_refused_by_its_field(asked: Body, pointer: str) -> None:
+@pytest.mark.parametrize(("payload", "pointer"), WRONG.values(), ids=WRONG)
+def test_what_cannot_be_rounded_is_refused_by_its_field(payload: Body, pointer: str) -> None:
     with pytest.raises(InvalidRequest) as error:
-        check(RoundRequest, asked)
-    assert pointer in [pointer_of(each.path) for each in error.value.problems]
+        check(RoundRequest, payload)
+    assert pointer in [pointer_of(problem.path) for problem in error.value.problems]

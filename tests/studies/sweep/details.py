@@ -80,9 +80,9 @@ def detail_figures(request: SweepRequest, answer: OptimizeAnswer | AnalyzeAnswer
             # they change what counterweights on the crankshaft do not
             path = path.replace("residual.before.", "residual.after.")
         parts = list(parts_of(request.base.machine, _OF[key]))
-        found = list(figures(answer, path.replace("[]", ".[]").split(".")))
+        numbers = list(figures(answer, path.replace("[]", ".[]").split(".")))
         if getattr(answer, path.split(".")[0]) is not None:
-            for part, value in zip(parts, found, strict=True):
+            for part, value in zip(parts, numbers, strict=True):
                 yield key + part.label, value
 
 
@@ -91,8 +91,8 @@ def figures(node: Any, path: list[str]) -> Iterator[Any]:
     if not path:
         yield node
     elif path[0] == "[]":
-        for one in node or ():
-            yield from figures(one, path[1:])
+        for value in node or ():
+            yield from figures(value, path[1:])
     else:
         assert node is None or isinstance(node, BaseModel)
         yield from figures(None if node is None else getattr(node, path[0]), path[1:])

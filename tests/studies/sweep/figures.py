@@ -34,9 +34,9 @@ def _numbers(path: str, kind: Any) -> Iterator[str]:
     elif kind in (int, float):
         yield path
     elif origin is not Literal:
-        for one in inside:
-            if one is not NoneType:
-                yield from _numbers(path, one)
+        for value in inside:
+            if value is not NoneType:
+                yield from _numbers(path, value)
 
 
 def _is_model(kind: Any) -> bool:

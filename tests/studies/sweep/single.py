@@ -91,11 +91,11 @@ def assert_row_is_the_single_answer(request: SweepRequest, row: dict[str, Any], 
     return str(row["status"])
 
 
-def assert_close(name: str, found: float | None, expected: float | None, size: float, close: float = CLOSE) -> None:
-    if expected is None or found is None:
-        assert found is expected, (name, found, expected)
+def assert_close(name: str, value: float | None, expected: float | None, size: float, close: float = CLOSE) -> None:
+    if expected is None or value is None:
+        assert value is expected, (name, value, expected)
     else:
-        assert abs(found - expected) <= close * max(abs(expected), size), (name, found, expected, size)
+        assert abs(value - expected) <= close * max(abs(expected), size), (name, value, expected, size)
 
 
 def _labels(request: SweepRequest) -> set[str]:
@@ -140,12 +140,12 @@ def _figures(request: SweepRequest, answer: OptimizeAnswer | AnalyzeAnswer) -> A
             yield from _certificate_figures(answer.certificate)
         if request.base.uncertain:
             yield from _worst_figures(request, answer)
-        on_shafts = (one for shaft in answer.balance_shafts or () for one in shaft.counterweights)
-        for one in (*answer.counterweights, *on_shafts):
-            yield f"mass_kg.{one.web}", one.mass_kg
-            yield f"angle_deg.{one.web}", one.angle_deg
-            if f"half_angle_deg.{one.web}" in {column.name for column in request.all_columns}:
-                yield f"half_angle_deg.{one.web}", None if one.shape is None else one.shape.half_angle_deg
+        on_shafts = (counterweight for shaft in answer.balance_shafts or () for counterweight in shaft.counterweights)
+        for weight in (*answer.counterweights, *on_shafts):
+            yield f"mass_kg.{weight.web}", weight.mass_kg
+            yield f"angle_deg.{weight.web}", weight.angle_deg
+            if f"half_angle_deg.{weight.web}" in {column.name for column in request.all_columns}:
+                yield f"half_angle_deg.{weight.web}", None if weight.shape is None else weight.shape.half_angle_deg
     else:
         yield "status", "analyzed"
     yield "total_mass_kg", answer.total_mass_kg
@@ -222,7 +222,10 @@ def _drive_figures(request: SweepRequest, answer: OptimizeAnswer | AnalyzeAnswer
         for weight in answer.loads.bearing_weights:
             yield f"bearing_weight_N.{weight.name}", weight.weight_N
     if answer.main_bearings is not None:
-        peaks = {one.name: None if one.after is None else one.after.peak_N for one in answer.main_bearings.bearings}
+        peaks = {
+            bearing.name: None if bearing.after is None else bearing.after.peak_N
+            for bearing in answer.main_bearings.bearings
+        }
         fitted = None not in peaks.values()
         yield "peak_bearing_load_N", max(peaks.values()) if fitted else None
         yield "peak_bending_Nm", answer.main_bearings.bending.peak_Nm if fitted else None
@@ -235,11 +238,11 @@ def _drive_figures(request: SweepRequest, answer: OptimizeAnswer | AnalyzeAnswer
 def _balance_figures(request: SweepRequest, answer: OptimizeAnswer | AnalyzeAnswer) -> Any:
     """Orders, stages and balance rates, which are known without an angle."""
     if answer.orders is not None:
-        fitted = {one.order: one for one in answer.orders.after or ()}
-        for one in answer.orders.before:
+        fitted = {order.order: order for order in answer.orders.after or ()}
+        for harmonic in answer.orders.before:
             # counterweights change the first order alone; without them there is nothing with them
-            with_them = fitted.get(one.order, one if one.order > 1 else None)
-            yield from _order_figures(one.order, with_them)
+            with_them = fitted.get(harmonic.order, harmonic if harmonic.order > 1 else None)
+            yield from _order_figures(harmonic.order, with_them)
     if answer.internal_moment is not None:
         yield "internal_moment_Nm", answer.internal_moment.after_Nm
     for stage in answer.stages or ():
@@ -268,7 +271,7 @@ def _order_figures(number: int, order: Order | None) -> Any:
 
 def numeric_paths(request: SweepRequest) -> list[str]:
     """Pointers to every numeric field that holds a number, of the parts that an axis may vary."""
-    found: list[str] = []
+    pointers: list[str] = []
 
     def walk(node: Any, path: tuple[str | int, ...]) -> None:
         if isinstance(node, dict):
@@ -278,7 +281,7 @@ def numeric_paths(request: SweepRequest) -> list[str]:
             for number, item in enumerate(node):
                 walk(item, (*path, number))
         elif isinstance(node, int | float) and not isinstance(node, bool):
-            found.append(pointer(path))
+            pointers.append(pointer(path))
 
     body = request.base.model_dump(mode="json")
     for part in ("machine", "objective", "counterweights"):
@@ -286,7 +289,7 @@ def numeric_paths(request: SweepRequest) -> list[str]:
             walk(body[part], (part,))
     # a sweep does not weigh what is known over the turn
     refused = tuple(pointer(("objective", name)) for name in OVER_THE_TURN)
-    return [path for path in found if not path.startswith(refused) and _is_number(request, path)]
+    return [path for path in pointers if not path.startswith(refused) and _is_number(request, path)]
 
 
 def _is_number(request: SweepRequest, path: str) -> bool:

@@ -46,8 +46,8 @@ def answers(base: dict[str, Any], *axes: dict[str, Any], **more: Any) -> tuple[l
 
 def test_catalogues() -> None:
     base = twin(catalogue={"masses_kg": [7.5, 16], "angle_step_deg": 60})
-    seen, rows = answers(base, {"path": "/machine/max_counterweights", "values": [None, 1, 0]})
-    assert seen == ["optimal"] * 3
+    replies, rows = answers(base, {"path": "/machine/max_counterweights", "values": [None, 1, 0]})
+    assert replies == ["optimal"] * 3
     fitted = [sum(1 for name, mass in row.items() if name.startswith("mass_kg.") and mass > 0) for row in rows]
     assert fitted[1] <= 1
     assert fitted[2] == 0
@@ -57,11 +57,11 @@ def test_catalogues() -> None:
 
 def test_catalogues_with_ceilings_out_of_reach_and_wrong_counts() -> None:
     axis = {"path": "/objective/force_ceiling_N", "values": [1, 1e6]}
-    seen, rows = answers(twin(), axis)
-    assert seen == ["infeasible", "optimal"]
+    replies, rows = answers(twin(), axis)
+    assert replies == ["infeasible", "optimal"]
     assert rows[0]["total_mass_kg"] is None
-    seen, rows = answers(twin(), {"path": "/machine/catalogue/angle_step_deg", "values": [30, 31]})
-    assert seen == ["optimal", "invalid"]
+    optima, rows = answers(twin(), {"path": "/machine/catalogue/angle_step_deg", "values": [30, 31]})
+    assert optima == ["optimal", "invalid"]
     assert "/machine/catalogue/angle_step_deg" in rows[1]["message"]
 
 
@@ -82,8 +82,8 @@ def test_what_proves_that_no_choice_keeps_the_ceilings_is_told(over_the_turn: bo
     cap = least.residual.after.force.peak_N + 1e-3 * least.residual.before.force.peak_N
     base["objective"] = goal | {"force_ceiling_N": cap}
     base["machine"]["max_counterweights"] = 1
-    seen, rows = answers(base, {"path": "/machine/max_counterweights", "values": [1]})
-    assert seen == ["infeasible"]
+    replies, rows = answers(base, {"path": "/machine/max_counterweights", "values": [1]})
+    assert replies == ["infeasible"]
     assert rows[0]["method"] in (EXHAUSTED, TREE)
     front = pareto(ParetoRequest.model_validate({**base, "points": 2, "counts": {"of": "weights"}}))
     assert front.counts is not None
@@ -98,20 +98,20 @@ def test_least_masses_and_what_holds_none() -> None:
     names = [web["name"] for web in base["machine"]["webs"]]
     base["accuracy"] = {"relative_gap": 1e-3}
     base["objective"] = {"least_mass": False}
-    seen, rows = answers(base, {"path": "/machine/webs/0/min_fitted_mass_kg", "values": [None, 9]})
-    assert set(seen) <= {"optimal", "inaccurate"}
+    replies, rows = answers(base, {"path": "/machine/webs/0/min_fitted_mass_kg", "values": [None, 9]})
+    assert set(replies) <= {"optimal", "inaccurate"}
     assert rows[1][f"mass_kg.{names[0]}"] == 0 or rows[1][f"mass_kg.{names[0]}"] >= 9
     assert rows[0]["lower_bound"] <= rows[1]["objective"]
 
 
 @pytest.mark.parametrize("of_base", [None, 1])
-@pytest.mark.parametrize("said", [None, 1e-5])
-def test_a_row_is_asked_for_the_gap_of_its_own_machine(of_base: int | None, said: float | None) -> None:
+@pytest.mark.parametrize("value", [None, 1e-5])
+def test_a_row_is_asked_for_the_gap_of_its_own_machine(of_base: int | None, value: float | None) -> None:
     """Property: an axis that asks for a search changes the usual gap, and none that is said."""
     base = plain()
     base["machine"]["webs"][0]["min_fitted_mass_kg"] = of_base
-    if said is not None:
-        base["accuracy"] = {"relative_gap": said}
+    if value is not None:
+        base["accuracy"] = {"relative_gap": value}
     request = sweep(base, {"path": "/machine/webs/0/min_fitted_mass_kg", "values": [None, 1]})
     # as a worker gets it
     request = SweepRequest.model_validate_json(request.model_dump_json())
@@ -119,9 +119,9 @@ def test_a_row_is_asked_for_the_gap_of_its_own_machine(of_base: int | None, said
     rows = [group.single(design) for design in (0, 1)]
     # read again, as by a client who asks for the design alone
     again = [OptimizeRequest.model_validate(json.loads(row.model_dump_json())) for row in rows]
-    expected = [said or 1e-6, said or 1e-3]
+    expected = [value or 1e-6, value or 1e-3]
     assert [row.accuracy.relative_gap for row in rows if isinstance(row, OptimizeRequest)] == expected
-    assert [one.accuracy.relative_gap for one in again] == expected
+    assert [optimize_request.accuracy.relative_gap for optimize_request in again] == expected
 
 
 @pytest.mark.parametrize("mirror", [False, True])
@@ -131,8 +131,8 @@ def test_groups(mirror: bool) -> None:
     body["machine"]["web_groups"] = [{"name": "all", "webs": names[:2], "mirror": mirror}]
     axis = {"path": "/machine/throws/0/crank_angle_deg", "values": [0, 30]}
     wrong = {"path": "/machine/webs/1/max_mass_kg", "values": [body["machine"]["webs"][1]["max_mass_kg"], 1.0]}
-    seen, rows = answers(body, axis, wrong, multipliers=False)
-    assert seen == ["optimal", "invalid"] * 2
+    replies, rows = answers(body, axis, wrong, multipliers=False)
+    assert replies == ["optimal", "invalid"] * 2
     assert "web_groups" in rows[1]["message"]
     for row in rows[::2]:
         assert row[f"mass_kg.{names[0]}"] == row[f"mass_kg.{names[1]}"]
@@ -152,14 +152,14 @@ def test_groups_over_the_turn_with_their_proofs() -> None:
     assert row["status"] == "optimal"
     assert DesignMultipliers.model_validate(json.loads(row["multipliers"])).objective is not None
     body["objective"] = {"orders": "all"}
-    seen, _ = answers(body, {"path": "/machine/speed_rpm", "values": [300]})
-    assert seen == ["optimal"]
+    replies, _ = answers(body, {"path": "/machine/speed_rpm", "values": [300]})
+    assert replies == ["optimal"]
 
 
 def test_plates() -> None:
     outer = {"path": "/machine/webs/0/envelope/outer_radius_m", "values": [0.095, 0.12, 0.02]}
-    seen, rows = answers({"machine": example("plate-single")["machine"]}, outer)
-    assert seen == ["optimal", "optimal", "invalid"]
+    replies, rows = answers({"machine": example("plate-single")["machine"]}, outer)
+    assert replies == ["optimal", "optimal", "invalid"]
     assert "/machine/webs/0/envelope/inner_radius_m" in rows[2]["message"]
     # analytic: a larger plate opens less
     assert rows[1]["half_angle_deg.front"] < rows[0]["half_angle_deg.front"] <= 90.0

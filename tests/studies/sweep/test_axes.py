@@ -23,7 +23,7 @@ def body(*axes: dict[str, Any], **rest: Any) -> dict[str, Any]:
     return {"base": example("2d12"), "axes": list(axes), **rest}
 
 
-def one_axis(path: str, *values: Any) -> dict[str, Any]:
+def single_axis(path: str, *values: Any) -> dict[str, Any]:
     return body({"path": path, "values": list(values)})
 
 
@@ -44,12 +44,12 @@ def one_axis(path: str, *values: Any) -> dict[str, Any]:
     ],
 )
 def test_numeric_fields_are_found(path: str) -> None:
-    request = check(SweepRequest, one_axis(path, 1.0))
+    request = check(SweepRequest, single_axis(path, 1.0))
     assert pointer(request.targets[0].path) == path
 
 
 @pytest.mark.parametrize(
-    ("path", "said"),
+    ("path", "text"),
     [
         ("machine/speed_rpm", "from the root"),
         ("", "from the root"),
@@ -71,14 +71,14 @@ def test_numeric_fields_are_found(path: str) -> None:
         ("/angles/step_deg", "only fields of"),
     ],
 )
-def test_other_pointers_are_refused_at_the_path(path: str, said: str) -> None:
-    problems = refused(one_axis(path, 1.0))
+def test_other_pointers_are_refused_at_the_path(path: str, text: str) -> None:
+    problems = refused(single_axis(path, 1.0))
     assert list(problems) == ["/axes/0/path"]
-    assert said in problems["/axes/0/path"]
+    assert text in problems["/axes/0/path"]
 
 
 @pytest.mark.parametrize(
-    ("path", "value", "said"),
+    ("path", "value", "text"),
     [
         ("/machine/speed_rpm", "5 kg", "unit must be one of"),
         ("/machine/speed_rpm", "fast", "number in rpm"),
@@ -93,10 +93,10 @@ def test_other_pointers_are_refused_at_the_path(path: str, said: str) -> None:
         ("/objective/direction_weights/x", None, "may not be null"),
     ],
 )
-def test_values_that_no_such_field_takes_are_refused(path: str, value: Any, said: str) -> None:
-    problems = refused(one_axis(path, 1.0, value))
+def test_values_that_no_such_field_takes_are_refused(path: str, value: Any, text: str) -> None:
+    problems = refused(single_axis(path, 1.0, value))
     assert list(problems) == ["/axes/0/values/1"]
-    assert said in problems["/axes/0/values/1"]
+    assert text in problems["/axes/0/values/1"]
 
 
 def test_text_with_a_unit_stands_for_its_number() -> None:
@@ -106,23 +106,23 @@ def test_text_with_a_unit_stands_for_its_number() -> None:
 
 
 @pytest.mark.parametrize(
-    ("second", "said"),
+    ("second", "text"),
     [
         ("/machine/rotation_torque_Nm/torque_Nm/0", "already"),
         ("/machine/rotation_torque_Nm", "holds this one or lies in it"),
     ],
 )
-def test_axes_that_vary_the_same_are_refused(second: str, said: str) -> None:
+def test_axes_that_vary_the_same_are_refused(second: str, text: str) -> None:
     base = {"machine": example("scroll-three-pins")["machine"]}
     base["machine"]["rotation_torque_Nm"] = {"angle_deg": [0, 180], "torque_Nm": [10, 12]}
     first = {"path": "/machine/rotation_torque_Nm/torque_Nm/0", "values": [1.0]}
     problems = refused({"base": base, "axes": [first, {"path": second, "values": [2.0]}]})
     assert list(problems) == ["/axes/1/path"]
-    assert said in problems["/axes/1/path"]
+    assert text in problems["/axes/1/path"]
 
 
 @pytest.mark.parametrize(
-    ("asked", "where"),
+    ("fields", "where"),
     [
         (body(), "/axes"),
         (body({"path": SPEED["path"]}), "/axes/0/start"),
@@ -155,13 +155,13 @@ def test_axes_that_vary_the_same_are_refused(second: str, said: str) -> None:
         ({"task": "analyze", "base": {**example("2d12"), "objective": {}}, "axes": [SPEED]}, "/base/objective"),
     ],
 )
-def test_what_is_wrong_is_named(asked: dict[str, Any], where: str) -> None:
-    assert where in refused(asked)
+def test_what_is_wrong_is_named(fields: dict[str, Any], where: str) -> None:
+    assert where in refused(fields)
 
 
 def test_escapes_are_those_of_rfc_6901() -> None:
     # ~01 is ~1, not /; no field has such a name, so the message shows how the pointer was read
-    assert refused(one_axis("/machine/a~01b", 1.0)) == {"/axes/0/path": "/machine has no field of this name"}
+    assert refused(single_axis("/machine/a~01b", 1.0)) == {"/axes/0/path": "/machine has no field of this name"}
     assert pointer(("a/b", "c~d", 0)) == "/a~1b/c~0d/0"
 
 
@@ -176,8 +176,8 @@ def test_targets_carry_the_range_of_the_field() -> None:
     request = sweep(example("2d12"), SPEED)
     target = find_target(request.base, "/machine/throws/0/rows/0/cylinder/compression_exponent")
     assert (target.lowest, target.above, target.highest, target.below) == (1.0, True, 10.0, False)
-    said = [rule.message for rule in target.rules(1.0)]
-    assert said == ["must be greater than 1", "must be at most 10"]
+    messages = [rule.message for rule in target.rules(1.0)]
+    assert messages == ["must be greater than 1", "must be at most 10"]
     broken = [[bool(rule.broken) for rule in target.rules(value)] for value in (1.0, 1.1, 10.0, 10.1, float("nan"))]
     assert broken == [[True, False], [False, False], [False, False], [False, True], [False, False]]
 
@@ -190,11 +190,11 @@ def test_counts() -> None:
 
 def every_pointer(node: Any, path: str = "") -> list[str]:
     """Pointers to everything in a JSON body, whatever it is."""
-    found = [path]
+    paths = [path]
     items = node.items() if isinstance(node, dict) else enumerate(node) if isinstance(node, list) else ()
     for name, item in items:
-        found += every_pointer(item, f"{path}/{name}")
-    return found
+        paths += every_pointer(item, f"{path}/{name}")
+    return paths
 
 
 @pytest.mark.parametrize("name", ["2d12", "v60", "scroll-oldham", "scroll-three-pins"])

@@ -28,8 +28,8 @@ LATER = {"outputs": DRIVE, "angles": {"step_deg": 30}}
 
 def checked(base: dict[str, Any], axes: Axes, **rest: Any) -> list[dict[str, Any]]:
     """Rows of a sweep, each held against the answer to its design, and those of optima by the independent checker."""
-    sent = {"base": base, "axes": [{"path": path, "values": values} for path, values in axes], **rest}
-    request = sweep(base, *sent["axes"], **rest)
+    survey = {"base": base, "axes": [{"path": path, "values": values} for path, values in axes], **rest}
+    request = sweep(base, *survey["axes"], **rest)
     rows: list[dict[str, Any]] = table(request).to_pylist()
     assert {assert_row_is_the_single_answer(request, row) for row in rows} <= {"optimal", "infeasible", "analyzed"}
     if request.task == "optimize":
@@ -112,24 +112,24 @@ def test_all_columns_are_those_of_single_answers(name: str) -> None:
         {"web": "one web", "mass_kg": 3.0, "angle_deg": 9.0},
         {"position_m": 0.1, "radius_m": 0.2, "mass_kg": 2.0, "angle_deg": 40.0},
     ]
-    asked = {**base, "outputs": ["residual", *DRIVE], "counterweights": fitted}
-    rows = checked(asked, [*_VARIED, ("/counterweights/0/mass_kg", [0.0, 3.0])], task="analyze", details=True)
+    actual_base = {**base, "outputs": ["residual", *DRIVE], "counterweights": fitted}
+    rows = checked(actual_base, [*_VARIED, ("/counterweights/0/mass_kg", [0.0, 3.0])], task="analyze", details=True)
     assert {row["balance_shafts_mass_kg"] for row in rows} == {0.0, 3.0}
 
 
 def test_proofs_of_rows_are_checked_and_figures_of_shafts_too() -> None:
-    sent = {
+    survey = {
         "base": {"machine": WITHIN},
         "axes": [{"path": "/machine/throws/0/crank_angle_deg", "values": [80, 100]}],
         "multipliers": True,
     }
-    rows = table(sweep(sent["base"], *sent["axes"], multipliers=True)).to_pylist()
-    held = {claim["claim"] for claim in checker().verify(sent, rows)["claims"] if claim["verdict"] == "held"}
+    rows = table(sweep(survey["base"], *survey["axes"], multipliers=True)).to_pylist()
+    held = {claim["claim"] for claim in checker().verify(survey, rows)["claims"] if claim["verdict"] == "held"}
     assert held >= {"lower_bound", "mass_lower_bound", "sector", "total_mass", "after", "counterweights"}
-    assert not broken(sent, rows)
+    assert not broken(survey, rows)
     for name, factor in (("mass_kg.back web", 1.001), ("angle_deg.back web", 1.001), ("balance_shafts_mass_kg", 0.999)):
         false = [{**rows[0], name: factor * rows[0][name]}, rows[1]]
-        assert verdict(sent, false) == "broken", name
+        assert verdict(survey, false) == "broken", name
 
 
 def test_infeasible_designs_carry_nothing() -> None:

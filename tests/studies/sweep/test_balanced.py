@@ -52,10 +52,10 @@ def test_rows_agree_with_single_answers_in_status_and_figures(seed: int) -> None
     ceilings = [0.0, *(float(size * 10.0**power) for power in (-12, -6, -1))]
     request = sweep(base, {"path": "/objective/moment_ceiling_Nm", "values": ceilings})
     rows = table(request).to_pylist()
-    found = [assert_row_is_the_single_answer(request, row) for row in rows]
-    assert set(found) <= _STATUSES
+    texts = [assert_row_is_the_single_answer(request, row) for row in rows]
+    assert set(texts) <= _STATUSES
     # no counterweights at all keep every ceiling of a moment that is balanced
-    assert "infeasible" not in found
+    assert "infeasible" not in texts
     # the objective does not rise with the ceiling, beyond what is certified
     for lower, higher in pairwise(rows):
         assert higher["objective"] <= lower["objective"] + 2e-6 * lower["yardstick"]

@@ -43,31 +43,31 @@ def steps() -> Machine:
 
 def skew() -> Machine:
     """Webs whose cranks are not those of their images: the other end is another machine."""
-    found = steps()
-    found["webs"][1]["throw"], found["webs"][2]["throw"] = 0, 2
-    return found
+    design = steps()
+    design["webs"][1]["throw"], design["webs"][2]["throw"] = 0, 2
+    return design
 
 
 def holes() -> Machine:
-    found = machine(catalogue={"masses_kg": [1.0, 2.5]})
-    for web in found["webs"]:
+    design = machine(catalogue={"masses_kg": [1.0, 2.5]})
+    for web in design["webs"]:
         web["hole_angles_deg"] = [10.0, 120.0, 200.0]
-    return found
+    return design
 
 
 def heavy() -> Machine:
-    found = machine(max_total_mass_kg=7.0)
-    for web in found["webs"]:
+    design = machine(max_total_mass_kg=7.0)
+    for web in design["webs"]:
         web["min_fitted_mass_kg"] = 2.5
-    return found
+    return design
 
 
 def cut() -> Machine:
-    found = machine(max_total_mass_kg=4.0)
-    for web in found["webs"]:
+    design = machine(max_total_mass_kg=4.0)
+    for web in design["webs"]:
         del web["counterweight_radius_m"], web["max_mass_kg"]
         web["envelope"] = {"shape": "sector", "inner_radius_m": 0.05, "outer_radius_m": 0.13, "thickness_m": 0.01}
-    return found
+    return design
 
 
 def alike(mirror: bool) -> Machine:
@@ -95,33 +95,33 @@ KINDS: dict[str, tuple[Callable[[], Machine], int]] = {
 }
 
 
-def body(given: Machine, angles: list[float] = EVEN) -> dict[str, Any]:
-    base = {"machine": given, "accuracy": {"relative_gap": GAP, "time_limit_s": 30}}
+def body(fields: Machine, angles: list[float] = EVEN) -> dict[str, Any]:
+    base = {"machine": fields, "accuracy": {"relative_gap": GAP, "time_limit_s": 30}}
     return {"base": base, "design": "crank_orders", "angles_deg": angles}
 
 
-def objectives(given: Machine, sequence: list[float]) -> tuple[np.ndarray, float]:
+def objectives(design: Machine, sequence: list[float]) -> tuple[np.ndarray, float]:
     """Of every sequence by itself (independent of what is the same machine), and the largest yardstick."""
-    found: list[tuple[float, float]] = []
+    values: list[tuple[float, float]] = []
     for angles in permutations(sequence):
-        throws = [{**throw, "crank_angle_deg": angle} for throw, angle in zip(given["throws"], angles, strict=True)]
-        answer = optimize({**body(given)["base"], "machine": {**given, "throws": throws}})
+        throws = [{**throw, "crank_angle_deg": angle} for throw, angle in zip(design["throws"], angles, strict=True)]
+        answer = optimize({**body(design)["base"], "machine": {**design, "throws": throws}})
         assert answer.certificate is not None
-        found.append((answer.certificate.objective, answer.certificate.yardstick))
-    every, sizes = np.array(found).T
+        values.append((answer.certificate.objective, answer.certificate.yardstick))
+    every, sizes = np.array(values).T
     return every, float(np.max(sizes))
 
 
 @pytest.mark.parametrize("kind", every(6, KINDS))
 def test_every_order_stands_for_its_sequences(kind: str) -> None:
     """Brute force over the 24 sequences: the rows have all their objectives and no other."""
-    made, count = KINDS[kind]
+    function, count = KINDS[kind]
     angles = UNEVEN if kind.endswith("uneven angles") else EVEN
-    request = SweepRequest.model_validate(body(made(), angles))
+    request = SweepRequest.model_validate(body(function(), angles))
     assert request.total == count
     table = run_chunk(request.model_dump_json().encode(), 0, request.total)
     assert set(table["status"].to_pylist()) == {"optimal"}
-    rows, (every, size) = table["objective"].to_numpy(), objectives(made(), angles)
+    rows, (every, size) = table["objective"].to_numpy(), objectives(function(), angles)
     apart = np.abs(rows[:, None] - every)
     assert np.all(np.min(apart, axis=0) <= 2 * GAP * size)
     assert np.all(np.min(apart, axis=1) <= 2 * GAP * size)
@@ -131,11 +131,11 @@ def test_every_order_stands_for_its_sequences(kind: str) -> None:
 
 def test_orders_that_a_group_does_not_allow_are_rows_that_say_so() -> None:
     """Sectors stand as drawn: where two cranks do not, their webs are no equal castings."""
-    given = alike(False)
-    given["web_groups"][0]["webs"] = ["0", "1"]
-    for web in given["webs"][:2]:
+    design = alike(False)
+    design["web_groups"][0]["webs"] = ["0", "1"]
+    for web in design["webs"][:2]:
         web["sector"] = {"centre_deg": 180.0, "half_angle_deg": 40.0}
-    request = SweepRequest.model_validate(body(given))
+    request = SweepRequest.model_validate(body(design))
     table = run_chunk(request.model_dump_json().encode(), 0, request.total)
     assert set(table["status"].to_pylist()) == {"invalid"}
     assert all("web_groups" in message for message in table["message"].to_pylist())
@@ -149,12 +149,12 @@ def test_too_many_orders_to_search() -> None:
         for k in range(9)
     ]  # fmt: skip
     webs = [{"name": "m", "position_m": 1.2, "counterweight_radius_m": 0.1, "max_mass_kg": 3.0, "throw": 4}]
-    found = machine(throws=throws, webs=webs)
-    asked = {**body(found), "angles_deg": [40.0 * n for n in range(9)]}
-    assert SweepRequest.model_validate(asked).total == 10176
-    found["catalogue"] = {"masses_kg": [1.0], "angle_step_deg": 90}
+    design = machine(throws=throws, webs=webs)
+    payload = {**body(design), "angles_deg": [40.0 * n for n in range(9)]}
+    assert SweepRequest.model_validate(payload).total == 10176
+    design["catalogue"] = {"masses_kg": [1.0], "angle_step_deg": 90}
     with pytest.raises(ValidationError, match="at most 10000 designs are searched one by one; these make 10176"):
-        SweepRequest.model_validate(asked)
+        SweepRequest.model_validate(payload)
 
 
 def test_what_is_analyzed_has_no_choice() -> None:

@@ -28,10 +28,10 @@ def body(angles: list[float], **machine: Any) -> dict[str, Any]:
         }
         for k in range(len(angles))
     ]
-    given = {"kind": "reciprocating", "speed_rpm": RPM, "throws": throws, **machine}
+    design = {"kind": "reciprocating", "speed_rpm": RPM, "throws": throws, **machine}
     return {
         "task": "analyze",
-        "base": {"machine": given, "outputs": ["residual", "orders", "internal_moment"]},
+        "base": {"machine": design, "outputs": ["residual", "orders", "internal_moment"]},
         "design": "crank_orders",
         "angles_deg": angles,
     }
@@ -65,9 +65,9 @@ def test_their_number(angles: list[float], count: int) -> None:
     request = sweep(angles)
     assert request.total == count
     assert request.crank_orders is not None
-    found = orders(request.crank_orders)
-    assert len(found) == count
-    assert np.array_equal(np.sort(found, axis=-1), np.tile(np.sort(angles), (count, 1)))
+    harmonics = orders(request.crank_orders)
+    assert len(harmonics) == count
+    assert np.array_equal(np.sort(harmonics, axis=-1), np.tile(np.sort(angles), (count, 1)))
 
 
 def moments(angles: list[float]) -> np.ndarray:
@@ -79,8 +79,8 @@ def moments(angles: list[float]) -> np.ndarray:
     return np.array([table[name].to_numpy() / (UNIT * size) for name, size in columns.items()]).T
 
 
-def has(found: np.ndarray, *expected: float) -> bool:
-    return bool(np.any(np.all(np.abs(found[:, : len(expected)] - expected) < 6e-4, axis=-1)))
+def has(values: np.ndarray, *expected: float) -> bool:
+    return bool(np.any(np.all(np.abs(values[:, : len(expected)] - expected) < 6e-4, axis=-1)))
 
 
 def test_the_known_best_orders() -> None:
@@ -99,18 +99,18 @@ def test_the_known_best_orders() -> None:
 
 def test_the_balanced_six() -> None:
     """Published: 0-120-240-240-120-0 is the only one without moments of order 1 and 2; analytic: it bends by root 3."""
-    request, found = sweep(twice(6)), moments(twice(6))
-    (balanced,) = np.flatnonzero(np.all(found[:, :2] < 1e-9, axis=-1))
+    request, actual_moments = sweep(twice(6)), moments(twice(6))
+    (balanced,) = np.flatnonzero(np.all(actual_moments[:, :2] < 1e-9, axis=-1))
     assert request.crank_orders is not None
     order = orders(request.crank_orders)[balanced]
     assert np.array_equal(order, order[::-1])
-    assert found[balanced, 2] == pytest.approx(np.sqrt(3.0), rel=1e-9)
+    assert actual_moments[balanced, 2] == pytest.approx(np.sqrt(3.0), rel=1e-9)
 
 
 def test_three_balanced_eights_are_told_apart_by_the_internal_moment_alone() -> None:
     """Independent: prototype; the first by hand: 0, 180, 90, 270 mirrored has |1 + j| at its middle."""
-    found = moments(twice(8))
-    balanced = found[np.all(found[:, :2] < 1e-9, axis=-1)]
+    actual_moments = moments(twice(8))
+    balanced = actual_moments[np.all(actual_moments[:, :2] < 1e-9, axis=-1)]
     assert np.sort(balanced[:, 2]) == pytest.approx([np.sqrt(2.0), np.sqrt(8.0), np.sqrt(10.0)], rel=1e-9)
 
 
@@ -184,14 +184,14 @@ def test_with_counterweights() -> None:
         {"name": name, "position_m": place, "counterweight_radius_m": 0.1, "max_mass_kg": 1}
         for name, place in (("a", -0.1), ("b", 1.3))
     ]
-    given = body(once(4), webs=webs)
-    bare = SweepRequest.model_validate(given)
-    chosen = SweepRequest.model_validate({**given, "task": "optimize"})
+    payload = body(once(4), webs=webs)
+    bare = SweepRequest.model_validate(payload)
+    chosen = SweepRequest.model_validate({**payload, "task": "optimize"})
     assert chosen.total == bare.total == 3
-    one, other = (run_chunk(each.model_dump_json().encode(), 0, 3) for each in (bare, chosen))
-    assert set(other["status"].to_pylist()) == {"optimal"}
-    before = one["force_peak_N"].to_numpy() + one["moment_peak_Nm"].to_numpy() / 1.4
-    assert np.all(other["objective"].to_numpy() <= before * (1 + 1e-9) + 1e-9)
+    first, second_body = (run_chunk(query.model_dump_json().encode(), 0, 3) for query in (bare, chosen))
+    assert set(second_body["status"].to_pylist()) == {"optimal"}
+    before = first["force_peak_N"].to_numpy() + first["moment_peak_Nm"].to_numpy() / 1.4
+    assert np.all(second_body["objective"].to_numpy() <= before * (1 + 1e-9) + 1e-9)
 
 
 def test_counterweights_that_are_given_stay_where_they_are() -> None:
@@ -200,9 +200,9 @@ def test_counterweights_that_are_given_stay_where_they_are() -> None:
         {"name": name, "position_m": place, "counterweight_radius_m": 0.1, "max_mass_kg": 1}
         for name, place in (("a", 0.0), ("b", PITCH))
     ]
-    given = body([0.0, 180.0], webs=webs)
-    given["base"]["counterweights"] = [{"web": "a", "mass_kg": MASS, "angle_deg": 180}]
-    request = SweepRequest.model_validate(given)
+    payload = body([0.0, 180.0], webs=webs)
+    payload["base"]["counterweights"] = [{"web": "a", "mass_kg": MASS, "angle_deg": 180}]
+    request = SweepRequest.model_validate(payload)
     assert request.total == 2
     moments = run_chunk(request.model_dump_json().encode(), 0, 2)["moment_peak_Nm"].to_numpy()
     # the rows leave half of UNIT in either sense; the counterweight takes that of its sense away, or doubles it

@@ -44,9 +44,9 @@ def test_values_do_not_depend_on_the_chunks(design: dict[str, object], cuts: lis
 
 def test_a_grid_counts_like_nested_loops() -> None:
     # analytic: the last axis is the innermost loop
-    found = np.stack(axis_values(three(design="grid"), 0, 36), axis=-1)
+    actual_axis_values = np.stack(axis_values(three(design="grid"), 0, 36), axis=-1)
     expected = list(product([100.0, 350.0, 600.0], [5.0, 20.0, 60.0, 10.0], [np.nan, 1000.0, 2000.0]))
-    np.testing.assert_array_equal(found, expected)
+    np.testing.assert_array_equal(actual_axis_values, expected)
 
 
 def test_paired_axes_go_side_by_side() -> None:
@@ -73,8 +73,8 @@ def test_a_range_of_one_value_is_its_start() -> None:
 
 @given(count=st.integers(1, 3000), seed=st.integers(0, 2**63 - 1), axis=st.integers(0, 63))
 def test_permutations_hold_every_number_once(count: int, seed: int, axis: int) -> None:
-    found = permuted(np.arange(count), count, seed, axis)
-    np.testing.assert_array_equal(np.sort(found), np.arange(count))
+    values = permuted(np.arange(count), count, seed, axis)
+    np.testing.assert_array_equal(np.sort(values), np.arange(count))
 
 
 def test_a_place_of_a_huge_permutation_costs_only_itself() -> None:
@@ -120,10 +120,10 @@ def test_seeds_and_axes_differ() -> None:
 
 
 def test_uniform_numbers_fill_the_unit_interval() -> None:
-    found = uniform(0, 100_000, 4, 2)
-    assert found.min() >= 0.0
-    assert found.max() < 1.0
+    number = uniform(0, 100_000, 4, 2)
+    assert number.min() >= 0.0
+    assert number.max() < 1.0
     # analytic: mean 1/2 and variance 1/12
-    assert found.mean() == pytest.approx(0.5, abs=0.005)
-    assert found.var() == pytest.approx(1 / 12, rel=0.02)
-    np.testing.assert_array_equal(found[13:29], uniform(13, 29, 4, 2))
+    assert number.mean() == pytest.approx(0.5, abs=0.005)
+    assert number.var() == pytest.approx(1 / 12, rel=0.02)
+    np.testing.assert_array_equal(number[13:29], uniform(13, 29, 4, 2))

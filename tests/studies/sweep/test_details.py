@@ -77,7 +77,7 @@ def test_of_an_output_that_is_not_asked_for_there_are_none() -> None:
 def test_what_nobody_asks_for_is_not_worked_out(
     columns: list[str] | None, left: list[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    def never(*_given: object) -> None:
+    def never(*arguments: object) -> None:
         raise AssertionError("nobody asked for it")
 
     for name in left:

@@ -42,7 +42,7 @@ def _of_columns(request: Any, *_rest: object) -> bool:
 
 
 def _of_many(requests: Sequence[OptimizeRequest], *_rest: object) -> bool:
-    return any(each.machine.speed_rpm == _SPEED for each in requests)
+    return any(request.machine.speed_rpm == _SPEED for request in requests)
 
 
 @pytest.mark.parametrize(
@@ -65,15 +65,15 @@ def test_one_design_that_breaks_down_ends_no_other(
     request = sweep(base(), _AXIS)
     monkeypatch.setattr(module, name, _breaking(getattr(module, name), at))
     with caplog.at_level(logging.ERROR, "optimizer"):
-        found = table(request).to_pylist()
-    faulty = found.pop(1)
+        sheet = table(request).to_pylist()
+    faulty = sheet.pop(1)
     assert faulty["status"] == "failed"
     assert faulty["message"].startswith("internal fault: ZeroDivisionError")
     assert faulty["/machine/speed_rpm"] == _SPEED
     # nothing that was computed before it broke down is told as if it were an answer
     labels = {"index", "status", "message", "/machine/speed_rpm"}
     assert all(value is None for column, value in faulty.items() if column not in labels)
-    assert [assert_row_is_the_single_answer(request, row) for row in found] == ["optimal"] * 3
+    assert [assert_row_is_the_single_answer(request, row) for row in sheet] == ["optimal"] * 3
     assert [record.getMessage() for record in caplog.records] == [
         "1 design(s) of a sweep broke down, 1 first: ZeroDivisionError: as a fault of the program would"
     ]
@@ -97,6 +97,6 @@ def test_webs_that_change_nothing_are_left_without_counterweights() -> None:
     request = sweep(
         {"machine": machine, "objective": goal}, {"path": "/machine/webs/0/position_m", "values": [0.4, 0.2]}
     )
-    found = table(request).to_pylist()
-    assert [row["status"] for row in found] == ["optimal", "optimal"]
-    assert found[0]["total_mass_kg"] == 0.0
+    sheet = table(request).to_pylist()
+    assert [row["status"] for row in sheet] == ["optimal", "optimal"]
+    assert sheet[0]["total_mass_kg"] == 0.0

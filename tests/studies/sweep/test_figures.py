@@ -104,7 +104,7 @@ def test_nothing_is_listed_that_there_is_not() -> None:
     assert {pattern for figure in left for pattern in reasons(figure)} == WITHOUT.keys()
 
 
-def asked(*names: str) -> SweepRequest:
+def figure_sweep(*names: str) -> SweepRequest:
     base = {**example("2d12"), "outputs": [*names]}
     return sweep(base, {"path": "/machine/speed_rpm", "values": [400]}, task="analyze", details=True)
 
@@ -114,6 +114,6 @@ def test_its_output_brings_the_column(figure: str) -> None:
     output = figure.partition(".")[0].removesuffix("[]")
     brought = {*usual_keys(output), *(keys_of(output) if output in DETAILS else ())}
     if output == "residual":
-        brought |= {column.name for column in asked("residual").all_columns}
+        brought |= {column.name for column in figure_sweep("residual").all_columns}
     assert (FIGURES | USUAL)[figure] in brought
     assert output in OUTPUT_COLUMNS

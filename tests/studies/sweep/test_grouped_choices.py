@@ -5,7 +5,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from tests.optimize.test_grouped_choices import asked
+from tests.optimize.test_grouped_choices import request_body
 from tests.optimize.test_mirrored_groups import PAIRS, grouped
 from tests.optimize.test_web_groups import ANGLES, NAMES
 from tests.studies.sweep.single import assert_row_is_the_single_answer, sweep, table
@@ -24,8 +24,8 @@ def castings(row: dict[str, Any]) -> np.ndarray:
     """Mass and place on the own crank (webs,), kg."""
     mass = np.array([row[f"mass_kg.{name}"] for name in NAMES])
     angle = np.array([row[f"angle_deg.{name}"] for name in NAMES]) - np.repeat(ANGLES, 2)
-    found: np.ndarray = mass * np.exp(1j * np.radians(angle))
-    return found
+    weight: np.ndarray = mass * np.exp(1j * np.radians(angle))
+    return weight
 
 
 def assert_alike(row: dict[str, Any], mirror: bool) -> np.ndarray:
@@ -42,9 +42,9 @@ def assert_alike(row: dict[str, Any], mirror: bool) -> np.ndarray:
     [(False, "/machine/catalogue/max_part_numbers", 1), (True, "/machine/max_counterweights", 3)],
 )
 def test_groups_from_a_catalogue(mirror: bool, limit: str, most: int) -> None:
-    base = asked(PAIRS, mirror, [3.0, 6.0, 9.0], 60.0)
-    seen, rows = answers(base, {"path": limit, "values": [None, most]})
-    assert seen == ["optimal"] * 2
+    base = request_body(PAIRS, mirror, [3.0, 6.0, 9.0], 60.0)
+    replies, rows = answers(base, {"path": limit, "values": [None, most]})
+    assert replies == ["optimal"] * 2
     masses = [assert_alike(row, mirror) for row in rows]
     assert set(np.ravel(masses)) <= {0.0, 3.0, 6.0, 9.0}
     # of three webs a pair takes two
@@ -65,8 +65,8 @@ def test_groups_that_are_at_least_so_heavy(mirror: bool, rotating: list[float]) 
     for web in base["machine"]["webs"]:
         web["min_fitted_mass_kg"] = _LEAST
     base["accuracy"] = {"relative_gap": _GAP, "time_limit_s": 30}
-    seen, rows = answers(base, {"path": "/machine/throws/0/rotating_mass_kg", "values": rotating})
-    assert set(seen) == {"optimal"}
+    replies, rows = answers(base, {"path": "/machine/throws/0/rotating_mass_kg", "values": rotating})
+    assert set(replies) == {"optimal"}
     for row in rows:
         mass = assert_alike(row, mirror)
         assert np.all((mass == 0) | (mass >= _LEAST))
@@ -78,6 +78,6 @@ def test_a_group_of_unlike_least_masses_is_an_invalid_design() -> None:
     for web in base["machine"]["webs"]:
         web["min_fitted_mass_kg"] = _LEAST
     base["accuracy"] = {"relative_gap": _GAP, "time_limit_s": 30}
-    seen, rows = answers(base, {"path": "/machine/webs/1/min_fitted_mass_kg", "values": [_LEAST, 5]})
-    assert seen == ["optimal", "invalid"]
+    replies, rows = answers(base, {"path": "/machine/webs/1/min_fitted_mass_kg", "values": [_LEAST, 5]})
+    assert replies == ["optimal", "invalid"]
     assert "/machine/web_groups/0/webs/1" in rows[1]["message"]

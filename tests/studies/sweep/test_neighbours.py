@@ -59,7 +59,7 @@ def test_rows_that_do_the_same_later_are_worked_out_as_beside_other_designs(monk
 
 
 def test_designs_without_largest_masses_are_proven_together(monkeypatch: pytest.MonkeyPatch) -> None:
-    def never(_one: object) -> None:
+    def never(value: object) -> None:
         raise AssertionError("no design needs to be looked at by itself")
 
     monkeypatch.setattr(implied_bounds, "_within_reach", never)

@@ -40,8 +40,8 @@ def opposed(**objective: Any) -> dict[str, Any]:
 def test_rows_are_the_single_answers(objective: dict[str, Any]) -> None:
     # property: what decides is every single answer
     request = sweep(opposed(**objective), {"path": MASS, "values": [40, 90]})
-    seen = [assert_row_is_the_single_answer(request, row) for row in table(request).to_pylist()]
-    assert seen == ["optimal"] * 2
+    texts = [assert_row_is_the_single_answer(request, row) for row in table(request).to_pylist()]
+    assert texts == ["optimal"] * 2
 
 
 def test_designs_with_and_without_goals_over_the_turn_in_one_sweep() -> None:
@@ -104,9 +104,9 @@ def test_a_row_that_asks_nothing_of_the_shaft_needs_none_of_its_data(
     assert base is not None
     request = sweep(base, {"path": f"/objective/{field}", "values": values})
     plan(request)
-    found = table(request).to_pylist()
-    assert [assert_row_is_the_single_answer(request, row) for row in found] == ["optimal", "invalid"]
-    assert f"needed by objective.{field}" in found[1]["message"]
+    sheet = table(request).to_pylist()
+    assert [assert_row_is_the_single_answer(request, row) for row in sheet] == ["optimal", "invalid"]
+    assert f"needed by objective.{field}" in sheet[1]["message"]
     never = sweep(base, {"path": f"/objective/{field}", "values": values[1:]})
     with pytest.raises(MissingInput):
         plan(never)

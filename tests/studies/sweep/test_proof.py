@@ -34,7 +34,7 @@ def designs(body: dict[str, Any], request: SweepRequest) -> Iterator[tuple[dict[
     table = rows(request, 0, request.total)
     for k in range(request.total):
         row = {name: column[k] for name, column in table.items()}
-        row = {name: None if isinstance(each, float) and math.isnan(each) else each for name, each in row.items()}
+        row = {name: None if isinstance(value, float) and math.isnan(value) else value for name, value in row.items()}
         design = json.loads(json.dumps(body))
         design["objective"]["force_ceiling_N"] = row["/objective/force_ceiling_N"]
         design["machine"]["webs"][0]["max_mass_kg"] = row["/machine/webs/0/max_mass_kg"]
@@ -45,8 +45,8 @@ def designs(body: dict[str, Any], request: SweepRequest) -> Iterator[tuple[dict[
 @pytest.mark.parametrize("seed", range(3))
 def test_every_row_carries_the_proof_of_its_bounds(seed: int, combine: str) -> None:
     """With and without ceilings, kept or in conflict, webs that carry nothing among them (independent, 60 digits)."""
-    asked = {**random_machine(seed), "reference_plane_m": PLANE}
-    body = {"machine": asked, "objective": {"combine": combine, "force_ceiling_N": 1.0}}
+    design = {**random_machine(seed), "reference_plane_m": PLANE}
+    body = {"machine": design, "objective": {"combine": combine, "force_ceiling_N": 1.0}}
     statuses = set()
     for request, row in designs(body, swept(body, [1e-3, 3e3, 1e5, None], [0.0, 3.0, 1e3], multipliers=True)):
         statuses.add(row["status"])
@@ -62,9 +62,9 @@ def test_every_row_carries_the_proof_of_its_bounds(seed: int, combine: str) -> N
 
 def test_rows_show_their_multipliers_only_if_asked() -> None:
     body = {"machine": random_machine(1), "objective": {"force_ceiling_N": 1e9}}
-    plain, asked = swept(body, [1e9], [1.0]), swept(body, [1e9], [1.0], multipliers=True)
+    plain, query = swept(body, [1e9], [1.0]), swept(body, [1e9], [1.0], multipliers=True)
     assert "multipliers" not in rows(plain, 0, 1)
-    assert [column.name for column in asked.column_selection] == [
+    assert [column.name for column in query.column_selection] == [
         *(c.name for c in plain.column_selection),
         "multipliers",
     ]

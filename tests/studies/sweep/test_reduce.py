@@ -31,13 +31,13 @@ def reduced(tool: Reducer, whole: pa.Table, cut: int, backwards: bool) -> list[i
 
 def brute_force_front(points: list[tuple[float | None, ...]], size: int) -> list[int]:
     """Independent: the definition, pair by pair."""
-    known = {k: point[:size] for k, point in enumerate(points) if None not in point[:size]}
+    positions = {k: point[:size] for k, point in enumerate(points) if None not in point[:size]}
 
-    def beats(one: tuple[float | None, ...], other: tuple[float | None, ...]) -> bool:
-        pairs = list(zip(one, other, strict=True))
+    def beats(first: tuple[float | None, ...], second: tuple[float | None, ...]) -> bool:
+        pairs = list(zip(first, second, strict=True))
         return all(a <= b for a, b in pairs) and any(a < b for a, b in pairs)  # type: ignore[operator]
 
-    return [k for k, point in known.items() if not any(beats(other, point) for other in known.values())]
+    return [k for k, point in positions.items() if not any(beats(position, point) for position in positions.values())]
 
 
 @given(points=POINTS, cut=st.integers(0, 40), backwards=st.booleans(), size=st.sampled_from([2, 3]))
@@ -45,8 +45,8 @@ def test_the_front_is_that_of_the_definition(
     points: list[tuple[float | None, ...]], cut: int, backwards: bool, size: int
 ) -> None:
     whole = as_table(points)
-    found = reduced(ParetoFilter("abc"[:size], whole.schema), whole, min(cut, len(points)), backwards)
-    assert found == brute_force_front(points, size)
+    reduction = reduced(ParetoFilter("abc"[:size], whole.schema), whole, min(cut, len(points)), backwards)
+    assert reduction == brute_force_front(points, size)
 
 
 @given(
@@ -60,12 +60,12 @@ def test_the_top_is_that_of_sorting(
     points: list[tuple[float | None, ...]], cut: int, backwards: bool, count: int, largest: bool
 ) -> None:
     whole = as_table(points)
-    found = reduced(
+    reduction = reduced(
         Top(TopFilter(by="b", count=count, largest=largest), whole.schema), whole, min(cut, len(points)), backwards
     )
     sign = -1.0 if largest else 1.0
-    known = [(sign * point[1], k) for k, point in enumerate(points) if point[1] is not None]
-    assert found == [k for _, k in sorted(known)[:count]]
+    values = [(sign * point[1], k) for k, point in enumerate(points) if point[1] is not None]
+    assert reduction == [k for _, k in sorted(values)[:count]]
 
 
 @pytest.mark.parametrize("size", [2, 3, 4])
@@ -128,25 +128,25 @@ def test_memory_is_that_of_what_is_kept() -> None:
         assert front.table().nbytes < 100 * 4 * 16
 
 
-def asked(**rest: object) -> SweepRequest:
+def reduced_sweep(**rest: object) -> SweepRequest:
     axis = {"path": "/machine/webs/0/max_mass_kg", "start": -5, "stop": 60, "count": 14}
     ceiling = {"path": "/objective/force_ceiling_N", "values": [None, 2]}
     return sweep(example("2d12"), axis, ceiling, **rest)
 
 
 def test_rows_without_an_answer_are_not_among_the_best() -> None:
-    request = asked(top={"by": "moment_peak_Nm", "count": 3})
+    request = reduced_sweep(top={"by": "moment_peak_Nm", "count": 3})
     rows = table(request)
     tool = reducer(request)
     tool.add(rows)
     best = tool.table().to_pylist()
-    known = sorted(row["moment_peak_Nm"] for row in rows.to_pylist() if row["status"] == "optimal")
-    assert [row["moment_peak_Nm"] for row in best] == known[:3]
+    moment_peaks_Nm = sorted(row["moment_peak_Nm"] for row in rows.to_pylist() if row["status"] == "optimal")
+    assert [row["moment_peak_Nm"] for row in best] == moment_peaks_Nm[:3]
     assert tool.table().schema.equals(rows.schema)
 
 
 def test_the_front_of_a_sweep() -> None:
-    request = asked(pareto=["force_peak_N", "total_mass_kg", "moment_peak_Nm"])
+    request = reduced_sweep(pareto=["force_peak_N", "total_mass_kg", "moment_peak_Nm"])
     rows = table(request)
     tool = reducer(request)
     tool.add(rows.slice(0, 5))
@@ -158,4 +158,4 @@ def test_the_front_of_a_sweep() -> None:
 
 def test_a_request_that_keeps_all_rows_has_no_reducer() -> None:
     with pytest.raises(ValueError, match="keeps all rows"):
-        reducer(asked())
+        reducer(reduced_sweep())

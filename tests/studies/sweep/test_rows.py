@@ -96,15 +96,15 @@ def assert_rows(request: SweepRequest, rng: np.random.Generator, most: int) -> s
 def test_rows_are_the_single_answers(task: str, design: str, sweeps: int) -> None:
     # property: for every machine so many sweeps over random fields
     rng = np.random.default_rng([len(task), len(design)])
-    seen: set[str] = set()
+    texts: set[str] = set()
     for base in (OPTIMIZED if task == "optimize" else ANALYZED).values():
         blank = sweep(base, {"path": "/machine/speed_rpm", "values": [1]}, task=task)
         for _ in range(sweeps):
             fields, count = (int(rng.integers(1, 3)), 3) if design == "grid" else (int(rng.integers(1, 6)), 5)
             rest = {"samples": 6, "seed": int(rng.integers(100))} if design == "latin_hypercube" else {}
             request = sweep(base, *random_axes(rng, blank, fields, count), task=task, design=design, **rest)
-            seen |= assert_rows(request, rng, 5)
-    assert seen >= {"invalid", "optimal" if task == "optimize" else "analyzed"}
+            texts |= assert_rows(request, rng, 5)
+    assert texts >= {"invalid", "optimal" if task == "optimize" else "analyzed"}
 
 
 def test_a_pressure_may_vary_alone() -> None:
@@ -136,10 +136,10 @@ def test_columns_of_every_output_are_the_single_answers(seed: int) -> None:
     blank = sweep(base, {"path": "/machine/speed_rpm", "values": [1]}, task="analyze")
     axes = random_axes(rng, blank, int(rng.integers(1, 4)), 4)
     speed = {"path": "/machine/speed_rpm", "values": list(rng.uniform(100.0, 3000.0, 4))}
-    others = [axis for axis in axes if axis["path"] != speed["path"]]
-    request = sweep(base, speed, *others, task="analyze", design="paired")
-    seen = {assert_row_is_the_single_answer(request, row, 1e-12) for row in table(request).to_pylist()}
-    assert "analyzed" in seen
+    actual_axes = [axis for axis in axes if axis["path"] != speed["path"]]
+    request = sweep(base, speed, *actual_axes, task="analyze", design="paired")
+    texts = {assert_row_is_the_single_answer(request, row, 1e-12) for row in table(request).to_pylist()}
+    assert "analyzed" in texts
 
 
 @pytest.mark.parametrize(
@@ -174,8 +174,8 @@ def test_sectors_thin_and_wide() -> None:
     half = {"path": "/machine/webs/0/sector/half_angle_deg", "values": [90, 60, 1e-3, 0, 91]}
     centre = {"path": "/machine/webs/0/sector/centre_deg", "values": [0, 200]}
     request = sweep(base, half, centre)
-    seen = [assert_row_is_the_single_answer(request, row) for row in table(request).to_pylist()]
-    assert seen == ["optimal"] * 6 + ["invalid"] * 4
+    texts = [assert_row_is_the_single_answer(request, row) for row in table(request).to_pylist()]
+    assert texts == ["optimal"] * 6 + ["invalid"] * 4
 
 
 def test_infeasible_designs_say_so() -> None:
@@ -195,8 +195,8 @@ def test_infeasible_designs_say_so() -> None:
 def test_a_machine_without_webs() -> None:
     base = {"machine": example("2d12")["machine"] | {"webs": []}}
     request = sweep(base, {"path": "/machine/speed_rpm", "values": [300, 600]})
-    seen = [assert_row_is_the_single_answer(request, row) for row in table(request).to_pylist()]
-    assert seen == ["optimal", "optimal"]
+    texts = [assert_row_is_the_single_answer(request, row) for row in table(request).to_pylist()]
+    assert texts == ["optimal", "optimal"]
 
 
 def test_least_mass_left_out() -> None:
@@ -212,12 +212,12 @@ def test_counterweights_of_a_row_make_its_peaks() -> None:
     base = {**example("m-type-four"), "objective": {"moment_weight": 0.3}}
     request = sweep(base, {"path": "/machine/throws/2/rows/0/reciprocating_mass_kg", "values": [150, 250]})
     for row in table(request).to_pylist():
-        given = [
+        counterweights = [
             {"web": web.name, "mass_kg": row[f"mass_kg.{web.name}"], "angle_deg": row[f"angle_deg.{web.name}"]}
             for web in request.base.machine.webs
         ]
         alone = sweep(
-            {"machine": base["machine"], "counterweights": given},
+            {"machine": base["machine"], "counterweights": counterweights},
             {"path": "/machine/throws/2/rows/0/reciprocating_mass_kg", "values": [row[request.axes[0].path]]},
             task="analyze",
         )

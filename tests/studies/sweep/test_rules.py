@@ -122,7 +122,7 @@ def colliding_axes(rng: np.random.Generator, blank: SweepRequest, fields: str, c
     axes = []
     for path in rng.choice(list(targets), min(len(targets), int(rng.integers(1, 6))), replace=False):
         target, held = targets[path], value_at(body, path)
-        alike = [value_at(body, other) for other, each in targets.items() if each.unit == target.unit]
+        alike = [value_at(body, name) for name, single_target in targets.items() if single_target.unit == target.unit]
         ends = [end for end in (target.lowest, target.highest) if np.isfinite(end)]
         choices = [held, held, held * 1.1, -held, 0.0, 1e-9, *rng.choice(alike, 2), *ends]
         values: list[Any] = [float(value) for value in rng.choice(choices, count)]
@@ -139,8 +139,8 @@ def refusal(request: SweepRequest, row: dict[str, Any]) -> list[str]:
         value = row[pointer(target.path)]
         put(body, target.path, int(value) if target.integer and value is not None and value % 1 == 0 else value)
     try:
-        asked = check(AnalyzeRequest if request.task == "analyze" else OptimizeRequest, body)
-        require_inputs(asked.machine, asked.outputs)
+        scene = check(AnalyzeRequest if request.task == "analyze" else OptimizeRequest, body)
+        require_inputs(scene.machine, scene.outputs)
     except (InvalidRequest, MissingInput) as error:
         return [f"{pointer(problem.path)}: {problem.message}" for problem in error.problems]
     return []
@@ -157,25 +157,25 @@ def test_a_row_is_invalid_where_its_request_is_refused_and_says_the_same(name: s
     task, base, fields, expected = CASES[name]
     rng = np.random.default_rng(list(CASES).index(name))
     blank = sweep(base, {"path": "/machine/speed_rpm", "values": [1]}, task=task)
-    seen = set[str]()
+    parts = set[str]()
     for number in range(30):
         # twelve, and so many more as it takes to break every rule
-        if number >= 12 and seen >= expected:
+        if number >= 12 and parts >= expected:
             break
         request = sweep(base, *colliding_axes(rng, blank, fields, 4), task=task, design="paired")
         for row in table(request).to_pylist():
-            said = refusal(request, row)
-            assert (row["status"] == "invalid") == bool(said), (row, said)
-            if said and out_of_range(request, row):
-                assert row["message"] in said
-            elif said:
-                assert row["message"] == said[0]
-                seen.add(row["message"].split(": ", 1)[1])
-    assert seen >= expected
+            actual_refusal = refusal(request, row)
+            assert (row["status"] == "invalid") == bool(actual_refusal), (row, actual_refusal)
+            if actual_refusal and out_of_range(request, row):
+                assert row["message"] in actual_refusal
+            elif actual_refusal:
+                assert row["message"] == actual_refusal[0]
+                parts.add(row["message"].split(": ", 1)[1])
+    assert parts >= expected
 
 
 @pytest.mark.parametrize(
-    ("broken", "said"),
+    ("broken", "values"),
     [
         # analytic
         ([False, True, True], [False, True, False]),
@@ -183,12 +183,12 @@ def test_a_row_is_invalid_where_its_request_is_refused_and_says_the_same(name: s
         ([False, False, False], [False, False, False]),
     ],
 )
-def test_only_the_first_of_rules_is_said_for_one_and_for_columns(broken: list[bool], said: list[bool]) -> None:
-    rules = [Rule(each, (), "") for each in broken]
-    assert [rule.broken for rule in first_of(rules)] == said
+def test_only_the_first_of_rules_is_said_for_one_and_for_columns(broken: list[bool], values: list[bool]) -> None:
+    rules = [Rule(verdict, (), "") for verdict in broken]
+    assert [rule.broken for rule in first_of(rules)] == values
     # beside a design that breaks none
-    columns = [Rule(np.array([each, False]), (), "") for each in broken]
-    assert [rule.broken.tolist() for rule in first_of(columns)] == [[each, False] for each in said]
+    columns = [Rule(np.array([verdict, False]), (), "") for verdict in broken]
+    assert [rule.broken.tolist() for rule in first_of(columns)] == [[verdict, False] for verdict in values]
 
 
 def test_the_largest_of_several_is_exact() -> None:

@@ -9,7 +9,7 @@ from service.common.validation import InvalidRequest
 from service.verification import checker
 from tests.night import part
 from tests.optimize.robust import crank, scenario
-from tests.optimize.whole_turn import one_throw
+from tests.optimize.whole_turn import single_throw
 from tests.studies.pareto.cases import four_webs
 from tests.studies.sweep import test_crank_orders as cranks
 from tests.studies.sweep.single import assert_row_is_the_single_answer, sweep, table
@@ -39,7 +39,7 @@ def test_between_two_cranks_by_their_angle() -> None:
             ({"machine": four_webs()}, {"path": "/machine/speed_rpm", "values": [300, 600]}),
             ({"machine": four_webs(), "tolerances": {"unbalance_kg_m": 0.01}},
              {"path": "/objective/force_ceiling_N", "values": [100, 60000]}),
-            ({"machine": one_throw(4.0), "objective": {"bearing_weight": 1.0}},
+            ({"machine": single_throw(4.0), "objective": {"bearing_weight": 1.0}},
              {"path": "/machine/throws/0/rows/0/reciprocating_mass_kg", "values": [5, 8]}),
         ],
         rows=True,
@@ -53,17 +53,17 @@ def test_a_row_is_the_answer_to_its_design_whatever_its_chunk(more: dict[str, An
         assert_row_is_the_single_answer(request, row)
     assert [row for k in range(len(rows)) for row in table(request, k, k + 1).to_pylist()] == rows
     proven = {"base": base, "axes": [axis], "multipliers": True}
-    told = json.loads(json.dumps(table(sweep(base, axis, multipliers=True)).to_pylist()))
-    verdict = checker().verify(proven, told)
+    document = json.loads(json.dumps(table(sweep(base, axis, multipliers=True)).to_pylist()))
+    verdict = checker().verify(proven, document)
     assert not [claim for claim in verdict["claims"] if claim["verdict"] == "broken"]
     assert {claim["claim"] for claim in verdict["claims"] if claim["verdict"] == "held"} >= {"worst_case", "objective"}
-    first = next(row for row in told if row["status"] == "optimal")
+    first = next(row for row in document if row["status"] == "optimal")
     for name in ("worst_case_force_peak_N", "nominal_objective"):
         assert checker().verify(proven, [{**first, name: first[name] * 0.999}])["verdict"] == "broken", name
 
 
 def test_a_design_whose_scenario_breaks_a_rule_says_so() -> None:
-    base = {"machine": one_throw(4.0), "scenarios": [scenario("long", throws__0__crank_radius_m=3.0)]}
+    base = {"machine": single_throw(4.0), "scenarios": [scenario("long", throws__0__crank_radius_m=3.0)]}
     axis = {"path": "/machine/throws/0/rows/0/connecting_rod/length_m", "values": [2.0, 5.0]}
     bad, good = table(sweep(base, axis)).to_pylist()
     assert (bad["status"], good["status"]) == ("invalid", "optimal")
@@ -71,7 +71,7 @@ def test_a_design_whose_scenario_breaks_a_rule_says_so() -> None:
 
 
 def test_a_scenario_that_lacks_what_the_goal_needs_is_a_row_that_says_so() -> None:
-    base = {"machine": one_throw(4.0), "objective": {"bearing_weight": 1.0, "bearing_measure": "specific"}}
+    base = {"machine": single_throw(4.0), "objective": {"bearing_weight": 1.0, "bearing_measure": "specific"}}
     for bearing in base["machine"]["bearings"]:
         bearing.update({"diameter_m": 0.1, "length_m": 0.1})
     base["scenarios"] = [scenario("no size", bearings__0__diameter_m=None)]
@@ -83,11 +83,11 @@ def test_a_scenario_that_lacks_what_the_goal_needs_is_a_row_that_says_so() -> No
 def test_of_cranks_in_order_scenarios_of_other_parts_leave_no_two_alike() -> None:
     """Analytic: four angles make 4! sequences, and fewer machines where all throws are alike."""
     angles = cranks.once(4)
-    made = {"design": "crank_orders", "angles_deg": angles}
+    value = {"design": "crank_orders", "angles_deg": angles}
     alike = {"machine": cranks.body(angles)["base"]["machine"]}
-    plain = sweep(alike, **made)
-    fast = sweep({**alike, "scenarios": [scenario("fast", speed_rpm=900.0)]}, **made)
-    heavy = sweep({**alike, "scenarios": [scenario("heavy", throws__0__rotating_mass_kg=9.0)]}, **made)
+    plain = sweep(alike, **value)
+    fast = sweep({**alike, "scenarios": [scenario("fast", speed_rpm=900.0)]}, **value)
+    heavy = sweep({**alike, "scenarios": [scenario("heavy", throws__0__rotating_mass_kg=9.0)]}, **value)
     assert fast.total == plain.total < heavy.total == 24
 
 

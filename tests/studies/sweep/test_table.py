@@ -61,9 +61,9 @@ def test_ranges_beyond_the_sweep_are_refused(start: int, stop: int) -> None:
 
 
 def test_no_designs_make_an_empty_table() -> None:
-    found = run_chunk(hypercube().model_dump_json().encode(), 4, 4)
-    assert found.num_rows == 0
-    assert found.column_names == [column.name for column in hypercube().all_columns]
+    value = run_chunk(hypercube().model_dump_json().encode(), 4, 4)
+    assert value.num_rows == 0
+    assert value.column_names == [column.name for column in hypercube().all_columns]
 
 
 def test_columns_of_the_contract() -> None:
@@ -103,11 +103,11 @@ def test_the_table_says_where_it_comes_from() -> None:
 
 
 def test_a_plan_covers_every_design_once() -> None:
-    found = plan(hypercube())
-    covered = [design for number in range(found.chunks) for design in range(*found.chunk(number))]
+    actual_plan = plan(hypercube())
+    covered = [design for number in range(actual_plan.chunks) for design in range(*actual_plan.chunk(number))]
     assert covered == list(range(30))
-    assert found.schema.equals(table(hypercube()).schema, check_metadata=True)
-    assert pickle.loads(pickle.dumps(found)) == found
+    assert actual_plan.schema.equals(table(hypercube()).schema, check_metadata=True)
+    assert pickle.loads(pickle.dumps(actual_plan)) == actual_plan
 
 
 def test_a_dry_run_counts_ten_million_designs_without_making_them() -> None:

@@ -19,8 +19,8 @@ def test_rows_are_the_single_answers_independent() -> None:
         task="analyze",
         details=True,
     )
-    found = [assert_row_is_the_single_answer(request, row) for row in table(request).to_pylist()]
+    texts = [assert_row_is_the_single_answer(request, row) for row in table(request).to_pylist()]
     # a bore below that of the piston rod is refused, and ends nothing
-    assert [status == "invalid" for status in found] == [False] * 4 + [True] * 2
+    assert [status == "invalid" for status in texts] == [False] * 4 + [True] * 2
     rows = table(request).to_pylist()
     assert rows[0]["indicated_power_W"] != rows[2]["indicated_power_W"]

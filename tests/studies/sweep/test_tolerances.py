@@ -73,10 +73,10 @@ def test_a_row_is_the_answer_to_its_design_whatever_its_chunk(base: dict[str, An
 
 def test_a_worst_case_that_is_falsified_is_broken() -> None:
     base, axis = {"machine": four_webs(), "tolerances": OFF}, {"path": "/machine/speed_rpm", "values": [300]}
-    sent = {"base": base, "axes": [axis], "multipliers": True}
+    survey = {"base": base, "axes": [axis], "multipliers": True}
     (row,) = table(sweep(base, axis, multipliers=True)).to_pylist()
     for name in ("worst_case_force_peak_N", "worst_case_moment_peak_Nm", "nominal_objective", "objective"):
-        verdict = checker().verify(sent, json.loads(json.dumps([{**row, name: row[name] * 0.999}])))
+        verdict = checker().verify(survey, json.loads(json.dumps([{**row, name: row[name] * 0.999}])))
         assert verdict["verdict"] == "broken", name
 
 

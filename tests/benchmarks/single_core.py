@@ -6,7 +6,7 @@ import sys
 _THREADS = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "NUMBA_NUM_THREADS")
 
 
-def one_thread(module: str) -> None:
+def single_thread(module: str) -> None:
     """Start ``python -m module`` anew if its libraries, which read this as they load, may use more than one thread."""
     if any(os.environ.get(name) != "1" for name in _THREADS):
         environment = {**os.environ, **dict.fromkeys(_THREADS, "1")}
