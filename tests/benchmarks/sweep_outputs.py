@@ -34,7 +34,7 @@ _ELSE = "table, everything else"
 PARTS: dict[str, tuple[str, ...]] = {
     "forces, curves, peaks": ("optimizer.mechanics.kernel.entry:over_turn",),
     "effects, integrals": ("optimizer.outputs.registry:simulated",),
-    "rest of the brackets": ("optimizer.responses.piecewise_cubics:_bracketed",),
+    "rest of the brackets": ("optimizer.responses.piecewise_cubics:_brackets",),
 }
 
 

@@ -26,7 +26,7 @@ PARTS: dict[str, tuple[str, ...]] = {
     ),
     _STAGES: ("optimizer.program.kernel.discs:solve", "optimizer.program.kernel.interior_point:solve"),
     "scaling": (
-        "optimizer.program.methods.optima:both_stages",
+        "optimizer.program.methods.optima:stage_solutions",
         "optimizer.program.methods.optima:yardstick",
     ),
     "certificate, choice of the point": ("optimizer.program.kernel.judging:judge",),

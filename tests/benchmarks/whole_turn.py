@@ -45,7 +45,7 @@ PARTS: dict[str, tuple[str, ...]] = {
     "rounds": ("optimizer.solve.uncertain_program:optimum",),
     "cone programs": ("optimizer.program.cuts.stage:solved",),
     "series of the rows, peaks": ("optimizer.mechanics.kernel.entry:over_turn",),
-    "rest of the brackets": ("optimizer.responses.piecewise_cubics:_bracketed",),
+    "rest of the brackets": ("optimizer.responses.piecewise_cubics:_brackets",),
     "smallest circles": ("optimizer.outputs.bearings:floors", "optimizer.program.cuts.samples:smallest_circle"),
     "rest of the proofs": ("optimizer.solve.solve:best_of_any_mass",),
     "figures, warnings": ("optimizer.optimize:fields",),

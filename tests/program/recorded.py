@@ -247,7 +247,8 @@ def _cuts(several: Iterable[Sequence[Any]]) -> list[Any]:
 
 def _of_cuts(cuts: Sequence[Cut]) -> list[Any]:
     angles = [0.0 if cut.angle_deg is None else np.exp(1j * np.deg2rad(cut.angle_deg)) for cut in cuts]
-    parts = [[cut.constant, cut.floor, cut.share, float(cut.scalar)] for cut in cuts]
+    shares = [1.0 if cut.share is None else cut.share for cut in cuts]
+    parts = [[cut.constant, cut.floor, share, float(cut.scalar)] for cut, share in zip(cuts, shares, strict=True)]
     return [np.array(angles), np.array([cut.influence for cut in cuts]), np.array(parts)]
 
 
