@@ -31,7 +31,7 @@ class Call:
     service : who was asked.
     subject : the id of a sweep, of a submission its key.
     status : None if no whole answer came.
-    said : the state of a sweep.
+    document : the state of a sweep.
     ids : of the sweeps that were listed, or whose state was said.
     rows : indices that were read.
     whole : whether all rows were asked for that there are.
@@ -95,7 +95,7 @@ class Client:
     ----------
     services : by name, those that live now.
     wires : by name, the network before each service.
-    calls, known, gone : shared with other clients: all calls; the sweeps that were accepted, by id; those of them that
+    calls, sweeps, gone : shared with other clients: all calls; the sweeps that were accepted, by id; those of them that
         were said to be gone.
     """
 
@@ -217,7 +217,7 @@ def _understood(
         wrong = _wrong_rows(rows, index, right if complete else None, sweep)
         return {"rows": frozenset(index), "whole": span == sweep.all, "wrong": wrong}
     document = json.loads(content)
-    return {"said": document, "ids": frozenset([document["id"]]), "wrong": _wrong_state(document, sweep)}
+    return {"document": document, "ids": frozenset([document["id"]]), "wrong": _wrong_state(document, sweep)}
 
 
 def _wrong_problem(status: int, headers: dict[str, str], content: bytes) -> str:

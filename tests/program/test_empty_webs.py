@@ -92,7 +92,7 @@ class _Noted(cuts.EmptyWebs):
     """Searches that find what they are told to, and note what was to be empty."""
 
     def __init__(self, fields: dict[tuple[int, ...], list[float]]) -> None:
-        object.__setattr__(self, "found", fields)
+        object.__setattr__(self, "optima", fields)
         object.__setattr__(self, "tried", [])
         object.__setattr__(
             self, "program", SimpleNamespace(limits=SimpleNamespace(radius=np.array([1.0, 1.0, 2.0, 1.0])))

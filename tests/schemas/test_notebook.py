@@ -50,7 +50,8 @@ def test_a_line_holds_figures_and_no_series() -> None:
     example = Specimen(version="1", mass_kg=1 / 3, series=(1.0,) * 1000, words="x" * 1000, part=Model())
     assert repr(example) == str(example)
     assert (
-        repr(example) == f"Found(version='1', mass_kg=0.333333, series=[1000], words='{'x' * 40}...', part=Model(...))"
+        repr(example)
+        == f"Specimen(version='1', mass_kg=0.333333, series=[1000], words='{'x' * 40}...', part=Model(...))"
     )
 
 
