@@ -48,6 +48,8 @@ ENOUGH, ENOUGH_FOR_MASS, MASS_ENOUGH = 1e-3, 1e-2, 1e-5
 TARGET = 1.0 - 1e-7
 _SHARES = Shares(TARGET, ENOUGH_FOR_MASS, MASS_ENOUGH, HEAVIER, CEILING_ROUNDING, CEILING_TOLERANCE)
 _SHARES_OF_ANY_MASS = _SHARES._replace(enough=ENOUGH)
+#: norms from which on it takes longer than a sparse solver, of which it factors three unknowns each
+MOST_NORMS = 150
 
 
 @record(frozen=True)
@@ -56,10 +58,6 @@ class StageSolutions(Solutions):
 
     smallest: Complex  # (N, K) kg m, the smallest objective found, whatever its mass
     certified: np.ndarray  # (N,) bool: nothing better is worth looking for
-
-
-#: norms from which on it takes longer than a sparse solver, of which it factors three unknowns each
-MOST_NORMS = 150
 
 
 def suits_kernel(statement: Statement) -> bool:

@@ -82,7 +82,7 @@ def uncertain_methods(task: Task, scene: Prepared, usable: np.ndarray, statement
         elif method.name not in _KNOWING and method.name not in absent:
             reason = _NO_SCATTER if method.name == "sampled_angles" else obstacle
             if reason is None:
-                yield replace(method, prepare=partial(_handed, method), entries=partial(_entries, method))
+                yield replace(method, prepare=partial(_with_terms, method), entries=partial(_entries, method))
             else:
                 absent.add(method.name)
                 yield Method(method.name, "none", partial(_absent, reason))
@@ -92,19 +92,19 @@ def _entries(method: Method, task: LadderProgram) -> int:
     return 0 if task.plain is None else method.entries(replace(task, statement=task.plain))
 
 
-def _handed(method: Method) -> Run:
+def _with_terms(method: Method) -> Run:
     """A method of machines as they are given, with what is off written as terms of their program."""
     run = method.prepare()
     most = MOST_FINE_NORMS if method.name == "interior_point_interpreted" else MOST_NORMS
 
-    def handed(task: LadderProgram, position: float, time_limit_s: float) -> MethodResult | str:
-        assert task.plain is not None  # others are refused
+    def result(task: LadderProgram, position: float, time_limit_s: float) -> MethodResult | str:
+        assert task.plain is not None  # without it such methods are rows that say why
         norms = task.plain.norms.constant.size
         if norms > most:
             return f"too large: {norms} norms, at most {most} are tried"
         return run(replace(task, statement=task.plain), position, time_limit_s)
 
-    return handed
+    return result
 
 
 def _absent(reason: str) -> Run:
