@@ -9,6 +9,8 @@ from optimizer.program.cuts.cut import Evaluation, Quantity, Scatter
 from optimizer.responses.curve import peaks
 from optimizer.responses.mass_scatter import peaks_astray
 
+#: relative width of brackets of what has no part in a goal; times the largest force of a machine it is a double yet
+WIDEST = 1e100
 #: unbalances that are remembered
 _REMEMBERED = 3
 #: share of an unbalance within which another is near

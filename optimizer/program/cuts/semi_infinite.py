@@ -20,7 +20,7 @@ from optimizer.numerics.arrays import SMALLEST, Complex, Real, Reals
 from optimizer.numerics.memoization import cached_property
 from optimizer.numerics.records import record
 from optimizer.program.ceilings import Ceilings, limited
-from optimizer.program.cuts.brackets import Brackets
+from optimizer.program.cuts.brackets import WIDEST, Brackets
 from optimizer.program.cuts.cut import EXACT, Cut, Evaluation, Quantity, Scatter
 from optimizer.program.cuts.dominance import Group, Weighed, deciding, spare
 from optimizer.program.cuts.exact_rows import ExactRows
@@ -42,8 +42,6 @@ _FINE = 1e-12
 _OF_QUANTITIES = ("samples", "brackets", "first", "_resting")
 #: what is smaller is nothing
 _TINY = 1e-300
-#: relative width of brackets of what has no part in a goal; times the largest force of a machine it is a double yet
-_WIDEST = 1e100
 #: share of what goals and ceilings are measured by: what samples show to be smaller may be larger between them
 _FAINT = 1e-9
 #: excesses over no ceilings; nobody writes to it
@@ -310,7 +308,7 @@ class Problem:
             over, point = self.finite.ceilings.excess(u) if self.ceilings else _NONE_OVER, points_at(self.finite, u)
             return Values(point.objective[None], over, (), self._over_budget(u), float(point.rounding))
         about = np.maximum(self.samples.sizes(u, self.scatter), _TINY)
-        tolerance = np.clip(width * self._shares / np.maximum(about, self._faint), 1e-15, _WIDEST)
+        tolerance = np.clip(width * self._shares / np.maximum(about, self._faint), 1e-15, WIDEST)
         spare = self._spare(about)
         return self._decided(u, tolerance, self.brackets.evaluate(u, np.maximum(tolerance, spare)), spare > tolerance)
 

@@ -80,20 +80,24 @@ def _choice_fields(request: AccuracyRequest, scene: Prepared) -> dict[str, objec
 def _method_fields(request: AccuracyRequest, scene: Prepared) -> dict[str, object]:
     """Fields of the answer where counterweights have any mass at any angle."""
     task = Task.of(request)
-    if task.robust:
-        whole = within_reach(whole_worst_case(task, scene))
-    else:
-        whole = within_reach(cone_program(*task.space, scene.responses, scene.omega_squared))
+    whole = within_reach(
+        whole_worst_case(task, scene)
+        if task.robust
+        else cone_program(*task.space, scene.responses, scene.omega_squared)
+    )
     usable = whole.limits.reach > 0
     statement = whole.only(usable)
-    program = LadderProgram(statement, _turn(request, scene).only(usable), plain(statement) if task.robust else None)
-    ways = uncertain_methods(task, scene, usable, statement) if task.robust else methods()
+    if task.robust:
+        of_terms, ways = plain(statement), uncertain_methods(task, scene, usable, statement)
+        best = _worst_best(task, scene, usable, statement)
+    else:
+        of_terms, ways, best = None, methods(), _best(statement)
+    program = LadderProgram(statement, _turn(request, scene).only(usable), of_terms)
 
     status: Status = "measured"
     reference: Reference | None = None
     rows: tuple[AccuracyRow, ...] = ()
     rest = float(statement.objective(np.zeros(statement.limits.radius.shape, complex)))
-    best = _worst_best(task, scene, usable, statement) if task.robust else _best(statement)
     if best is None:
         status = "infeasible"
     elif rest == 0.0 or not np.any(usable):
