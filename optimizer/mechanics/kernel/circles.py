@@ -16,7 +16,7 @@ from optimizer.responses.piecewise_cubics import ROUNDING
 
 #: points added to those of the pieces for the smallest circle around a curve, at most
 _MOST_POINTS = 50
-#: a circle this share of the curve's distance from the origin is a point
+#: a circle this share of what is added up in a curve is a point: what cancels leaves its rounding
 _ROUNDING = 256 * np.finfo(float).eps
 #: orders, as numpy's integers like all else that is handed on
 _VALUE, _CUBIC = np.int64(0), np.int64(3)
@@ -72,7 +72,7 @@ def circles(cubics, members, rows, sums, middle, motion):  # type: ignore[no-unt
         for k in range(active.size):
             j, most = active[k], peak.upper[k]
             upper[j] = most
-            open_ = most > radius[j] * (1.0 + tolerance) + _ROUNDING * outline.size[j]
+            open_ = most > radius[j] * (1.0 + tolerance) + _ROUNDING * size[j]
             beyond[k] = open_ and most > largest[group[j]]
         active = active[beyond]
         if active.size == 0:

@@ -31,7 +31,6 @@ class Outlines(NamedTuple):
     centre, radius : (J,) of the smallest circles around them.
     lower, upper : (J,) what the radius of the smallest circle around the curve is not below, and what none of its
         points is farther than from the centre.
-    size : (J,) largest distance of a place from the origin.
     curve, at, angle : (m,) which pieces and angles [rad] hold which circle.
     """
 
@@ -41,7 +40,6 @@ class Outlines(NamedTuple):
     radius: Real
     lower: Real
     upper: Real
-    size: Real
     curve: np.ndarray
     at: np.ndarray
     angle: Real
@@ -72,7 +70,7 @@ def outlines(cubics, number, group):  # type: ignore[no-untyped-def]
     values = np.empty((curves, wide.size * share), np.complex128)
     centre, radius = np.empty(curves, np.complex128), np.empty(curves)
     lower, upper = np.empty(curves), np.empty(curves)
-    size, count = np.zeros(curves), 0
+    count = 0
     curve, at, angle = np.empty(3 * curves, np.int64), np.empty(3 * curves, np.int64), np.empty(3 * curves)
     largest_of, bounds = np.full(curves, -1), np.full(curves, -np.inf)
     for j in range(curves):
@@ -89,10 +87,6 @@ def outlines(cubics, number, group):  # type: ignore[no-untyped-def]
             continue
         for p in range(wide.size):
             _at_places(cubics.cubic[number[j], wide[p]], values[j, p * share : (p + 1) * share])
-        largest = 0.0
-        for k in range(values.shape[1]):
-            largest = max(largest, values[j, k].real ** 2 + values[j, k].imag ** 2)
-        size[j] = np.sqrt(largest)
         centre[j], radius[j], support, _ = smallest(values[j])
         for k in range(support.size):
             there, place = wide[support[k] // share], PLACES[support[k] % share]
@@ -108,7 +102,7 @@ def outlines(cubics, number, group):  # type: ignore[no-untyped-def]
         lower[j], upper[j] = radius[j] - rest, most
         bounds[group[j]] = max(bounds[group[j]], lower[j])
     curve, at, angle = curve[:count].copy(), at[:count].copy(), angle[:count].copy()
-    return Outlines(wide, values, centre, radius, lower, upper, size, curve, at, angle)
+    return Outlines(wide, values, centre, radius, lower, upper, curve, at, angle)
 
 
 @inner_with_arrays
