@@ -15,7 +15,7 @@ from schemas.answer.answers import OptimizeAnswer
 from schemas.request.requests import AnalyzeRequest, OptimizeRequest
 from service.common.validation import InvalidRequest, check
 from tests.hard_turn.machines import twin
-from tests.night import at_night
+from tests.night import at_night, part
 from tests.pairs.asking import body_of
 from tests.studies.pareto.test_counts import PLANES, RADIUS, SPEED, body
 
@@ -264,7 +264,7 @@ def test_what_scatters_with_a_choice_is_under_no_ceiling(text: str) -> None:
     assert [problem.path for problem in refused.value.problems] == [("tolerances", "mass_relative")]
 
 
-@pytest.mark.parametrize("share", [0.0, 0.1])
+@pytest.mark.parametrize("share", part(2, [0.0, 0.1]))
 def test_bearings_of_masses_that_are_at_least_so_heavy(share: float) -> None:
     """Independent: two bearings beside turning masses, two webs in steps of half a kilogram and four degrees."""
     request = body(STEP_DEG, MASSES, tolerances={"mass_relative": share})

@@ -149,7 +149,7 @@ def test_choices_are_those_that_no_other_beats_in_the_worst_scenario(weight: flo
 
 
 @pytest.mark.parametrize("responses", part(1, [("objective", "mass"), ("bearings", "mass")]))
-@pytest.mark.parametrize("tolerances", part(1, [None, {"mass_relative": 0.02, "reciprocating_mass_relative": 0.05}]))
+@pytest.mark.parametrize("tolerances", part(2, [None, {"mass_relative": 0.02, "reciprocating_mass_relative": 0.05}]))
 def test_a_point_of_named_responses_is_the_best_worst_case_of_its_mass(
     responses: tuple[str, str], tolerances: dict[str, float] | None
 ) -> None:
