@@ -15,6 +15,8 @@ _REACHES = 1.0 + 1e-13
 _FIRST = np.arctan(np.exp(np.linspace(-4.0, 4.0, 13)))
 #: nodes are laid on both sides of one, these shares as far away as those that were there
 _NEARER = np.array([1.0, 0.125, 0.015625])
+#: nodes of a plate at most, where those that were there are kept
+_MOST = 40
 #: nodes that are nearer than this share of the largest half-angle are one
 _SAME = 1e-9
 
@@ -108,19 +110,31 @@ def nodes_about(plates: Plates, nodes: Real, u: Complex, lighter: float) -> Real
     if np.all(mass - np.maximum.reduce(tangent, axis=0) <= lighter * mass):
         return nodes
     # of tangents that are nearer the plate between them is no heavier than that
-    closer = _apart(closer_nodes(nodes, angle), np.sqrt(lighter))
-    return nodes if np.array_equal(closer, nodes) else closer
+    closer = _apart(closer_nodes(nodes, angle), lighter=lighter)
+    # those that were there stay, so that a point that was seen to be heavy is not called for again
+    every = np.sort(np.concatenate([nodes[1:-1], closer[1:-1]]), axis=0)
+    distance = np.abs(every - angle)
+    # those that are one count once
+    distance[1:][every[1:] == every[:-1]] = np.inf
+    order = np.argsort(distance, axis=0, kind="stable")[:_MOST]
+    inside = np.sort(np.take_along_axis(every, order, axis=0), axis=0)
+    result = _apart(np.concatenate([nodes[:1], inside, nodes[-1:]]), lighter=lighter)
+    return nodes if np.array_equal(result, nodes) else result
 
 
-def _apart(nodes: Real, share: float = _SAME) -> Real:
+def _apart(nodes: Real, share: float = _SAME, lighter: float = 0.0) -> Real:
     """The same, in rising order, none next to another: those that are one have the same half-angle.
 
     Parameters
     ----------
     share : of the largest half-angle, by which nodes differ that are not one.
+    lighter : share of its mass by which a plate may be heavier than tangents at nodes that are one. Such nodes are the
+        nearer where it is all but closed, and towards the largest half-angle, where the lever may vanish.
     """
-    near = share * nodes[-1]
-    inside = np.where((nodes[1:-1] - nodes[:-2] > near) & (nodes[-1] - nodes[1:-1] > near), nodes[1:-1], 0.0)
+    inside = nodes[1:-1]
+    rest = nodes[-1] - inside
+    near = np.maximum(share * nodes[-1], np.sqrt(lighter) * np.minimum(inside, np.sqrt(rest * nodes[-1])))
+    inside = np.where((inside - nodes[:-2] > near) & (rest > near), inside, 0.0)
     return np.concatenate([nodes[:1], np.maximum.accumulate(inside, axis=0), nodes[-1:]])
 
 

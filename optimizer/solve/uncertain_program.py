@@ -129,8 +129,14 @@ class MachineOfCase:
 class Robust:
     """The program of one task, as far as the worst masses are known where they scatter."""
 
-    def __init__(self, task: Task, scene: Prepared, demand: Demand) -> None:
+    def __init__(
+        self, task: Task, scene: Prepared, demand: Demand, machines: Sequence[MachineOfCase] | None = None
+    ) -> None:
         """Prepare the machines of all scenarios.
+
+        Parameters
+        ----------
+        machines : those of the scenarios of the task, where another program of the same scene has prepared them.
 
         Raises
         ------
@@ -141,10 +147,12 @@ class Robust:
         tolerances = task.tolerances
         self.scatter = scatter_of(tolerances)
         share = 0.0 if tolerances is None else tolerances.reciprocating_mass_relative
-        self.machines = list(_scenarios(task, scene, share)) or [MachineOfCase(self.space, scene, None, 1.0, share)]
-        for machine in self.machines:
-            if machine.scene is not scene:
-                scene.simulated.join(machine.scene.simulated, "scenarios")
+        if machines is None:
+            machines = list(_scenarios(task, scene, share)) or [MachineOfCase(self.space, scene, None, 1.0, share)]
+            for machine in machines:
+                if machine.scene is not scene:
+                    scene.simulated.join(machine.scene.simulated, "scenarios")
+        self.machines = [entry if entry.share == share else replace(entry, share=share) for entry in machines]
         self._until = time.thread_time() + demand.time_limit_s
         #: signs of the changes of masses that are known of every machine
         self._signs: list[list[Real]] = [[] for _ in self.machines]

@@ -8,7 +8,6 @@ from pydantic import Field
 from schemas.base.model import Answer, Model
 from schemas.base.quantities import Count, Kilograms, Milliseconds
 from schemas.base.rules import Rule
-from schemas.request.cases import stated
 from schemas.request.requests import OptimizeRequest
 
 
@@ -31,10 +30,7 @@ class AccuracyRequest(OptimizeRequest):
 
     def rules(self) -> Iterator[Rule]:
         yield from super().rules()
-        message = "the ladder is of one machine as it is given"
-        for field in stated(self):
-            yield Rule(True, (field,), message)
-        yield from self.allowance_rules(message)
+        yield from self.allowance_rules("the ladder has a row for every way to one choice, and none for cheaper ones")
         for name in self.objective.over_the_turn:
             yield Rule(True, ("objective", name), "the ladder is of the first order: not asked of a whole cycle")
 
@@ -47,9 +43,11 @@ class AccuracyRow(Model):
         "interior_point_batch: the same on many programs at once, as a sweep does; interior_point_interpreted: the "
         "same in finer numbers; cone_program: the exact program, compiled once, one solve by clarabel; "
         "cone_program_matrices: the same without a modelling layer; sampled_angles: peaks seen only at sampled "
-        "shaft angles; polygonal_cones: linear, polygons in place of circles. With tolerances also nominal: "
-        "the optimum with nothing off; partly_off: with counterweights or masses alone; first_order: with masses at "
-        "corners that are worst by derivatives at the nominal optimum; corners: at those that so many rounds know",
+        "shaft angles; polygonal_cones: linear, polygons in place of circles. With tolerances or scenarios also "
+        "nominal: the optimum with nothing off; partly_off: with counterweights, masses or scenarios alone; "
+        "first_order: with masses at corners that are worst by derivatives at the nominal optimum; corners: at those "
+        "that so many rounds know. With scenarios also one_scenario: the optimum of one by itself; worst_scenarios: of "
+        "those that so many rounds know",
         examples=["sampled_angles"],
     )
     setting: str = Field(description="what is varied within the method", examples=["36 angles"])
@@ -195,7 +193,7 @@ class PeakRow(Model):
 
 
 class Reference(Model):
-    """What errors are measured from; with tolerances all of it is of the worst case."""
+    """What errors are measured from; with tolerances or scenarios all of it is of the worst case."""
 
     objective: float = Field(description="smallest objective found", examples=[41250.2])
     lower_bound: float = Field(

@@ -109,6 +109,8 @@ def _steps(best: list[Point]) -> Iterator[Point]:
 
 
 def _setting(row: Row) -> str:
-    """What a method is set to, in a word."""
+    """What a method is set to, in a word; of a scenario its name."""
+    if row.method == "one_scenario":
+        return shortened(row.setting.removeprefix("scenario "), 14)
     words = row.setting.split()
     return words[0] if row.setting[0].isdigit() else words[-1]

@@ -181,13 +181,12 @@ def test_scenarios_that_are_none_are_refused_by_name(scenarios: list[dict[str, A
     assert any(f"scenarios/{pointer}" in text for text in texts), texts
 
 
-def test_sweeps_and_fronts_take_scenarios_and_the_ladder_does_not() -> None:
+def test_scenarios_go_with_sweeps_fronts_and_the_ladder() -> None:
     body = {"machine": crank(), "scenarios": [{"name": "a"}]}
     axis = {"path": "/machine/speed_rpm", "values": [100.0]}
     assert SweepRequest.model_validate({"base": body, "axes": [axis]}).separate
     assert ParetoRequest.model_validate(body).uncertain
-    with pytest.raises(ValidationError, match="machine as it is given"):
-        AccuracyRequest.model_validate(body)
+    assert AccuracyRequest.model_validate(body).scenarios
 
 
 def test_tolerances_go_with_sweeps_fronts_and_the_ladder() -> None:

@@ -70,6 +70,19 @@ def test_some_ladders_with_balance_shafts(combination: Combination) -> None:
 
 
 @pytest.mark.nightly
+@pytest.mark.parametrize("scenarios", ["scenario of masses", "scenario of speed"])
+@pytest.mark.parametrize("base", BASES)
+def test_all_ladders_with_scenarios(base: str, scenarios: str) -> None:
+    faults = [
+        f"{_short((base, (scenarios, name)))} | {fault}"
+        for name in FEATURES
+        for fault in [accuracy_fault(base, (scenarios, name))]
+        if fault is not None
+    ]
+    assert not faults
+
+
+@pytest.mark.nightly
 @pytest.mark.parametrize("block", range(_BLOCKS))
 def test_all_pairs_with_balance_shafts(block: int) -> None:
     faults = [

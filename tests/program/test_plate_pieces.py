@@ -135,6 +135,41 @@ def test_nodes_are_laid_closer_only_where_tangents_are_too_light(lighter: float,
             assert _filled(tangents(PLATES, nodes), plate, float(size)) < float(mass)
 
 
+@pytest.mark.parametrize("lighter", [1e-7, 1e-10])
+@pytest.mark.parametrize("share", [0.3, 0.9, 0.99, 0.9999, 1.0 - 1e-7])
+def test_tangents_about_any_opening_are_as_heavy_as_the_plate(share: float, lighter: float) -> None:
+    """Property: where a plate is all but full its lever vanishes, and tangents have to be the nearer."""
+    nodes, angle = NODES["first"], share * PLATES.most
+    u = np.zeros(WEBS, complex)
+    for _ in range(3):
+        # what the tangents of before would call for beside it
+        for nearby in (angle, angle * (1.0 - 1e-5), angle):
+            u[PLATES.webs] = PLATES.unbalance(nearby)
+            nodes = nodes_about(PLATES, nodes, u, lighter)
+    size, mass = PLATES.unbalance(angle), PLATES.mass(angle)
+    tangent = PLATES.mass(nodes[:-1]) + (size - PLATES.unbalance(nodes[:-1])) / PLATES.lever(nodes[:-1])
+    assert np.all(np.max(tangent, axis=0) >= mass * (1.0 - 1.01 * lighter))
+
+
+def test_nodes_that_were_there_stay() -> None:
+    """Property: a search that goes back and forth between openings finds the tangents of both."""
+    nodes, first, second = NODES["first"], np.array([0.3, 0.7, 0.8]), np.array([0.5, 0.6, 0.4])
+    u = np.zeros(WEBS, complex)
+    for angle in (first, second):
+        u[PLATES.webs] = PLATES.unbalance(angle)
+        nodes = nodes_about(PLATES, nodes, u, 1e-7)
+    for angle in (first, second):
+        u[PLATES.webs] = PLATES.unbalance(angle)
+        assert nodes_about(PLATES, nodes, u, 1e-7) is nodes
+    # however long it goes on there are not many
+    rng = np.random.default_rng(2)
+    for _ in range(20):
+        u[PLATES.webs] = PLATES.unbalance(rng.uniform(0.1, 0.9, 3) * PLATES.most)
+        nodes = nodes_about(PLATES, nodes, u, 1e-7)
+    assert len(nodes) <= 42
+    assert np.all(np.diff(nodes, axis=0) >= 0.0)
+
+
 def test_a_plate_without_room_is_no_piece() -> None:
     webs = tangents(PLATES, NODES["first"])
     none = Webs(webs.radius, np.where(np.arange(3) == 1, 0.0, webs.mass))

@@ -235,7 +235,10 @@ class Search:
         self.pool.forget(u)
         if self.plates is None:
             return new
-        nodes = nodes_about(self.plates, self._nodes(self.plates), u, self.lighter)
+        alike = self.program.limits.alike
+        # webs of equal castings have the same nodes to the last digit
+        sizes = u if alike is None else u[np.array(alike.leader)]
+        nodes = nodes_about(self.plates, self._nodes(self.plates), sizes, self.lighter)
         heavier = nodes is not self.pool.nodes
         if heavier:
             # the next program has other variables

@@ -28,9 +28,9 @@ from optimizer.numerics.arrays import Complex, Real
 from optimizer.numerics.memoization import cached_property
 from optimizer.numerics.records import record
 from optimizer.program.ceilings import CEILING_TOLERANCE
-from optimizer.program.statement import Statement
 from optimizer.solve.solution import Infeasible
 from optimizer.solve.solve import solve
+from optimizer.studies.accuracy.judge import Judge
 from optimizer.studies.accuracy.ladder import LADDER_S, ROUNDS_S, frontier, median_ms
 from optimizer.studies.accuracy.uncertain import whole_worst_case
 from schemas.base.rules import Path
@@ -99,14 +99,14 @@ class Ladder(NamedTuple):
     unreachable: bool
 
 
-def at_rest(request: AccuracyRequest, scene: Prepared) -> Statement:
-    """The program of any masses, of the worst case where something is off; plates are not opened yet, and reach as far
-    as they can."""
+def at_rest(request: AccuracyRequest, scene: Prepared) -> Judge:
+    """The program of any masses, of the worst case where there is more than the machine as it is given; plates are not
+    opened yet, and reach as far as they can."""
     task = Task.of(request)
     if task.robust:
         return whole_worst_case(task, scene)
     (machine, objective), square = task.space, np.array([scene.omega_squared])
-    return cone_program(closed(machine), objective, scene.responses, square).subset(0)
+    return Judge(cone_program(closed(machine), objective, scene.responses, square).subset(0))
 
 
 def choices_ladder(request: AccuracyRequest, scene: Prepared) -> Ladder:
@@ -162,7 +162,7 @@ class _Ways:
     scene: Prepared
 
     @cached_property
-    def program(self) -> Statement:
+    def judge(self) -> Judge:
         return at_rest(self.request, self.scene)
 
     @cached_property
@@ -172,12 +172,15 @@ class _Ways:
     @cached_property
     def free(self) -> Task:
         """Any mass at any angle on every web; plates stay plates."""
-        machine, usual = self.request.machine, Accuracy()
-        own = [(*web, field) for web in web_paths(machine) for field in (*CHOICES, "min_fitted_mass_kg")]
-        nothing: dict[Path, Any] = dict.fromkeys([*own, ("catalogue",), ("max_counterweights",)])
-        nothing |= {("web_groups",): ()}
-        free = with_fields(machine, nothing)
-        return replace(self.task, machine=free, relative_gap=usual.relative_gap, time_limit_s=usual.time_limit_s)
+        task, usual = self.task, Accuracy()
+        scenarios = tuple(scenario._replace(machine=_free(scenario.machine)) for scenario in task.scenarios)
+        return replace(
+            task,
+            machine=_free(task.machine),
+            scenarios=scenarios,
+            relative_gap=usual.relative_gap,
+            time_limit_s=usual.time_limit_s,
+        )
 
     def rungs(self) -> Iterator[Rung]:
         machine, longest = self.request.machine, self.request.accuracy.time_limit_s
@@ -217,18 +220,18 @@ class _Ways:
             return Nothing(free.reason)
         mass, angle = _nearest(self.task, free.unbalance)
         u = unbalance(mass, angle, _radius(self.request.machine))
-        value = float(self.program.objective(u)) * self.scene.omega_squared
+        value = self.judge.objective(u) * self.scene.omega_squared
         return Candidate(mass, value, None, self._keeps_limits(mass, u), None)
 
     def _keeps_limits(self, mass: Real, u: Complex) -> bool:
         """Whether masses (K + S,) kg of unbalances (K + S,) kg m keep ceilings, budget and numbers."""
-        excess = np.max(self.program.ceilings.excess(u), initial=-np.inf)
+        excess = np.max(self.judge.statement.ceilings.excess(u), initial=-np.inf)
         return bool(excess <= CEILING_TOLERANCE) and _counts(self.task, mass)
 
     def judged(self, rungs: Sequence[Rung]) -> Ladder:
         """What is known of all rows together, and each against it."""
         results = [rung.candidate for rung in rungs if rung.candidate is not None]
-        rest = float(self.program.at_rest) * self.scene.omega_squared
+        rest = self.judge.at_rest * self.scene.omega_squared
         objective = min((entry.objective for entry in results if entry.feasible), default=np.nan)
         bound = max((entry.bound for entry in results if entry.bound is not None), default=-np.inf)
         if not bound <= objective + EQUAL * rest:
@@ -250,6 +253,14 @@ class _Ways:
         fastest = frontier(candidates, reference.resolution)
         rows = tuple(_row(*entry) for entry in zip(rungs, figures, fastest, strict=True))
         return Ladder(reference, rows, False)
+
+
+def _free(machine: Machine) -> Machine:
+    """The machine with any mass at any angle on every web; plates stay plates."""
+    own = [(*web, field) for web in web_paths(machine) for field in (*CHOICES, "min_fitted_mass_kg")]
+    nothing: dict[Path, Any] = dict.fromkeys([*own, ("catalogue",), ("max_counterweights",)])
+    nothing |= {("web_groups",): ()}
+    return with_fields(machine, nothing)
 
 
 def _radius(machine: Machine) -> Real:

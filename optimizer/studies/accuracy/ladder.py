@@ -9,7 +9,7 @@ import statistics
 import time
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, field
-from typing import TypeVar
+from typing import NamedTuple, TypeVar
 
 import numpy as np
 
@@ -72,9 +72,32 @@ class Clock:
         return self.end_s - time.perf_counter()
 
 
-def survey(task: LadderProgram, methods: Iterable[Method], clock: Clock) -> list[Trial]:
-    """Every method once at each position of its grid."""
-    return [_trial(task, method, clock) for method in methods]
+class FirstRun(NamedTuple):
+    """A run before the ladder, which is the first of its method."""
+
+    method: str
+    setting: str
+    result: MethodResult
+    elapsed_s: float
+
+
+def survey(
+    task: LadderProgram, methods: Iterable[Method], clock: Clock, earlier: FirstRun | None = None
+) -> list[Trial]:
+    """Every method once at each position of its grid.
+
+    Parameters
+    ----------
+    earlier : a run that is not repeated, of a method without a grid.
+    """
+    return [_run_before(task, method, earlier) or _trial(task, method, clock) for method in methods]
+
+
+def _run_before(task: LadderProgram, method: Method, earlier: FirstRun | None) -> Trial | None:
+    if earlier is None or (method.name, method.setting) != earlier[:2]:
+        return None
+    judged = [_judge(task, method.positions[0], earlier.result)]
+    return Trial(method, method.prepare(), judged, earlier.elapsed_s)
 
 
 def time_rounds(task: LadderProgram, trials: Sequence[Trial], repeats: int, clock: Clock) -> None:
@@ -116,7 +139,7 @@ def _judge(task: LadderProgram, position: float, weights: MethodResult) -> Judge
     statement = task.statement
     return Judged(
         position,
-        objective=float(statement.objective(weights.unbalance)),
+        objective=task.objective(weights.unbalance),
         excess=float(np.max(statement.ceilings.excess(weights.unbalance), initial=-np.inf)),
         claimed=weights.claimed,
         bound=weights.prove(),

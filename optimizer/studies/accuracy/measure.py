@@ -24,11 +24,21 @@ from optimizer.program.methods.optima import optima
 from optimizer.program.statement import Statement
 from optimizer.studies.accuracy.choices import at_rest, choices_ladder
 from optimizer.studies.accuracy.effects import effects_ladder
-from optimizer.studies.accuracy.ladder import LADDER_S, SOLVE_S, Clock, Trial, frontier, median_ms, survey, time_rounds
+from optimizer.studies.accuracy.ladder import (
+    LADDER_S,
+    SOLVE_S,
+    Clock,
+    FirstRun,
+    Trial,
+    frontier,
+    median_ms,
+    survey,
+    time_rounds,
+)
 from optimizer.studies.accuracy.methods import POSITIONS, LadderProgram, Method, methods
 from optimizer.studies.accuracy.peaks import peaks_ladder
 from optimizer.studies.accuracy.rivals.sampled import OverTheTurn, WeightedResponse
-from optimizer.studies.accuracy.uncertain import SHARPEST, plain, robust, uncertain_methods, whole_worst_case
+from optimizer.studies.accuracy.uncertain import SHARPEST, Steps, plain, uncertain_methods, whole_worst_case
 from schemas.base.mappings import or_mapping
 from schemas.base.version import package_version
 from schemas.request.accuracy import (
@@ -68,9 +78,9 @@ def accuracy(request: AccuracyRequest) -> AccuracyAnswer:
 def _choice_fields(request: AccuracyRequest, scene: Prepared) -> dict[str, object]:
     """Fields of the answer where counterweights are as a workshop makes them."""
     closed = at_rest(request, scene)
-    usable = closed.limits.reach > 0
-    fields: dict[str, object] = {"size": _size(request, closed.only(usable)), "ladder": ()}
-    if float(closed.at_rest) == 0.0 or not np.any(usable):
+    usable = closed.statement.limits.reach > 0
+    fields: dict[str, object] = {"size": _size(request, closed.statement.only(usable)), "ladder": ()}
+    if closed.at_rest == 0.0 or not np.any(usable):
         return fields | {"status": "nothing_to_choose", "reference": None}
     result = choices_ladder(request, scene)
     status = "infeasible" if result.unreachable else "measured" if result.reference else "contradicted"
@@ -80,34 +90,70 @@ def _choice_fields(request: AccuracyRequest, scene: Prepared) -> dict[str, objec
 def _method_fields(request: AccuracyRequest, scene: Prepared) -> dict[str, object]:
     """Fields of the answer where counterweights have any mass at any angle."""
     task = Task.of(request)
-    whole = within_reach(
-        whole_worst_case(task, scene)
-        if task.robust
-        else cone_program(*task.space, scene.responses, scene.omega_squared)
-    )
-    usable = whole.limits.reach > 0
-    statement = whole.only(usable)
-    if task.robust:
-        of_terms, ways = plain(statement), uncertain_methods(task, scene, usable, statement)
-        best = _worst_best(task, scene, usable, statement)
-    else:
-        of_terms, ways, best = None, methods(), _best(statement)
-    program = LadderProgram(statement, _turn(request, scene).only(usable), of_terms)
+    return (_worst_case_fields if task.robust else _nominal_fields)(request, task, scene)
 
+
+def _nominal_fields(request: AccuracyRequest, task: Task, scene: Prepared) -> dict[str, object]:
+    """Those of a machine as it is given."""
+    statement = within_reach(cone_program(*task.space, scene.responses, scene.omega_squared))
+    usable = statement.limits.reach > 0
+    program = LadderProgram(statement.only(usable), _turn(request, scene).only(usable))
+    return _ladder_fields(request, scene, program, _best(program.statement), methods())
+
+
+def _worst_case_fields(request: AccuracyRequest, task: Task, scene: Prepared) -> dict[str, object]:
+    """Those of the worst case, whose optimum is the first run of the most accurate row of the service."""
+    whole = whole_worst_case(task, scene)
+    if whole.sums is None:
+        whole = whole.within(within_reach(whole.statement).limits)
+    usable = whole.statement.limits.reach > 0
+    steps, start = Steps(task, scene, usable), time.perf_counter()
+    optimum = steps.whole(steps.robust(SHARPEST, SOLVE_S))
+    elapsed_s = time.perf_counter() - start
+    # of several sums the search knows how far counterweights reach
+    judge = (whole if whole.sums is None else whole.within(optimum.limits)).only(usable)
+    program = LadderProgram(judge.statement, _turn(request, scene).only(usable), plain(judge), judge.sums)
+    if isinstance(optimum, Conflict):
+        return _ladder_fields(request, scene, program, None, ())
+    result, proof = steps.result(optimum), optimum.proof
+    excess = float(np.max(judge.statement.ceilings.excess(result.unbalance), initial=-np.inf))
+    figures = result.unbalance, judge.objective(result.unbalance), result.prove(), excess
+    best = Best(*figures, proof.statement, proof.multipliers)
+    earlier = FirstRun("service", f"relative gap {SHARPEST:.0e}", result, elapsed_s)
+    return _ladder_fields(request, scene, program, best, uncertain_methods(steps, judge), earlier)
+
+
+def _ladder_fields(
+    request: AccuracyRequest,
+    scene: Prepared,
+    program: LadderProgram,
+    best: "Best | None",
+    ways: Iterable[Method],
+    earlier: FirstRun | None = None,
+) -> dict[str, object]:
+    """Fields of the answer with the ladder of some methods.
+
+    Parameters
+    ----------
+    best : None where no counterweights keep the ceilings.
+    earlier : run of one of them that is known.
+    """
+    webs = program.statement.limits.radius
     status: Status = "measured"
     reference: Reference | None = None
     rows: tuple[AccuracyRow, ...] = ()
-    rest = float(statement.objective(np.zeros(statement.limits.radius.shape, complex)))
+    rest = program.objective(np.zeros(webs.shape, complex))
     if best is None:
         status = "infeasible"
-    elif rest == 0.0 or not np.any(usable):
+    elif rest == 0.0 or not webs.size:
         status = "nothing_to_choose"
         reference, _ = _judged(program, [], best, rest, scene.omega_squared)
     else:
-        reference, rows = _judged(program, _run(program, ways, request.repeats), best, rest, scene.omega_squared)
+        trials = _run(program, ways, request.repeats, earlier)
+        reference, rows = _judged(program, trials, best, rest, scene.omega_squared)
     if reference is None and status != "infeasible":
         status = "contradicted"
-    return {"status": status, "reference": reference, "size": _size(request, statement), "ladder": rows}
+    return {"status": status, "reference": reference, "size": _size(request, program.statement), "ladder": rows}
 
 
 class Best(NamedTuple):
@@ -130,16 +176,6 @@ def _best(statement: Statement) -> Best | None:
     return Best(*figures, statement, result.multipliers)
 
 
-def _worst_best(task: Task, scene: Prepared, usable: np.ndarray, statement: Statement) -> Best | None:
-    """That of the worst case, by a statement of all of it."""
-    _, result = robust(task, scene, SHARPEST, SOLVE_S).solved()
-    if isinstance(result, Conflict):
-        return None
-    u, proof = result.point.unbalance[usable], result.proof
-    excess = float(np.max(statement.ceilings.excess(u), initial=-np.inf))
-    return Best(u, float(statement.objective(u)), proof.bound, excess, proof.statement, proof.multipliers)
-
-
 def _turn(request: AccuracyRequest, scene: Prepared) -> OverTheTurn:
     """The peaks and ceilings of :func:`optimizer.formulation.goals.cone_program`, as they pass over the turn."""
     response_weights, across = weights(request.machine, request.objective), request.objective.direction_weights
@@ -157,9 +193,9 @@ def _turn(request: AccuracyRequest, scene: Prepared) -> OverTheTurn:
     )
 
 
-def _run(task: LadderProgram, ways: Iterable[Method], repeats: int) -> list[Trial]:
+def _run(task: LadderProgram, ways: Iterable[Method], repeats: int, earlier: FirstRun | None) -> list[Trial]:
     clock = Clock.of(LADDER_S)
-    trials = survey(task, ways, clock)
+    trials = survey(task, ways, clock, earlier)
     time_rounds(task, trials, repeats, clock)
     return trials
 

@@ -16,6 +16,7 @@ from optimizer.program.multipliers import objective_multipliers
 from optimizer.program.reference.assembled import NoPoint
 from optimizer.program.reference.modelling import ConeProgram
 from optimizer.program.statement import Statement
+from optimizer.studies.accuracy.judge import Judge
 from optimizer.studies.accuracy.rivals import matrices
 from optimizer.studies.accuracy.rivals.polygonal import polygonal
 from optimizer.studies.accuracy.rivals.sampled import OverTheTurn, sampled
@@ -36,11 +37,17 @@ class LadderProgram:
     """The program to solve; all its webs can carry something.
 
     plain : where something is off, the same as one sum of norms; None where it is none.
+    sums : (groups,) as of :class:`optimizer.studies.accuracy.judge.Judge`.
     """
 
     statement: Statement
     turn: OverTheTurn
     plain: Statement | None = None
+    sums: np.ndarray | None = None
+
+    def objective(self, u: Complex) -> float:
+        """What counterweights (K,) kg m come to."""
+        return Judge(self.statement, self.sums).objective(u)
 
 
 @record(frozen=True)

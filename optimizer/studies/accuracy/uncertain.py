@@ -1,11 +1,12 @@
-"""Methods where something is off: each sees a part of what may be, and the worst case of all of it judges.
+"""Methods where something is off, or several machines count: each sees a part, and the worst case of all judges.
 
-The steps are the nominal optimum, the corner of the masses that is worst by the derivatives there, the corners that are
-worst at the optimum of the step before, and the whole worst case with its proof. What a step leaves out only lowers its
-objective, so that its bound is one of the worst case too.
+The steps are the nominal optimum, a scenario by itself, the scenarios that are worst at the optimum of the step before,
+the corner of the masses that is worst by the derivatives, the corners that are worst at the optimum of the step before,
+and the whole worst case with its proof. What a step leaves out only lowers its objective, so that its bound is one of
+the worst case too. The machine as it is given may be none of the scenarios: beside these its optimum proves nothing.
 """
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import replace
 from functools import partial
 
@@ -16,12 +17,15 @@ from optimizer.formulation.simulation import Prepared
 from optimizer.formulation.task import Demand, Task
 from optimizer.mechanics.scatter import weighted
 from optimizer.numerics.arrays import Complex, Real
+from optimizer.program.ceilings import CEILING_TOLERANCE
 from optimizer.program.cuts.optimum import CertifiedOptimum, Conflict
+from optimizer.program.cuts.row_generation import MANY
 from optimizer.program.optimum import optimum
 from optimizer.program.statement import Statement
 from optimizer.solve.answer_fields import bound_beside
 from optimizer.solve.uncertain_program import MachineOfCase, Measure, Robust
 from optimizer.solve.worst_case import nominal
+from optimizer.studies.accuracy.judge import Judge
 from optimizer.studies.accuracy.ladder import SOLVE_S
 from optimizer.studies.accuracy.methods import GAPS, LadderProgram, Method, MethodResult, Run, methods
 
@@ -35,57 +39,77 @@ MOST_NORMS, MOST_FINE_NORMS = 64, 16
 Step = Callable[[Robust], CertifiedOptimum | Conflict]
 _UNREACHABLE = "no counterweights keep the ceilings"
 _NO_SCATTER = "knows no scatter: it sees the machine as drawn, at its angles"
+_NO_SCENARIOS = "knows no scenarios: it sees one machine, at its angles"
 _ONE_SUM = "knows no scatter of {}: its program is one sum of norms"
 _OF_CEILINGS, _OF_PEAKS = "counterweights under ceilings", "several peaks, each at a worst case of its own"
-#: those that a program with what is off can be handed to as it is
-_KNOWING = ("service", "cone_program_matrices")
+_MANY_SUMS = "too large: the sums of all scenarios at all corners are more than {} rows"
 _MASSES = ("reciprocating_mass_relative",)
 _COUNTERWEIGHTS = ("mass_relative", "angle_deg", "unbalance_kg_m")
+_EVERYTHING = (*_MASSES, *_COUNTERWEIGHTS)
 
 
-def robust(task: Task, scene: Prepared, relative_gap: float, time_limit_s: float) -> Robust:
-    """The program of a task, for the smallest objective alone."""
-    return Robust(task, scene, Demand(relative_gap, False, time_limit_s))
-
-
-def whole_worst_case(task: Task, scene: Prepared) -> Statement:
+def whole_worst_case(task: Task, scene: Prepared) -> Judge:
     """The worst case of everything that may be off, whatever the counterweights."""
-    return Robust(task, scene, task.demand).goals().anywhere.begun
+    return Judge.of(Robust(task, scene, task.demand).goals().anywhere)
 
 
-def uncertain_methods(task: Task, scene: Prepared, usable: np.ndarray, statement: Statement) -> Iterator[Method]:
+def uncertain_methods(steps: "Steps", judge: Judge) -> Iterator[Method]:
     """All methods: the steps to the worst case, then those of a machine as it is given.
 
     Parameters
     ----------
-    usable : (K,) webs that the program of the ladder has.
-    statement : that program, of the whole worst case.
+    judge : the whole worst case, of the webs that the program of the ladder has.
     """
-    steps = _Steps(task, scene, usable)
-    obstacle = _obstacle(statement)
-    yield Method("nominal", "nothing off", steps.run(SHARPEST, steps.nominal))
-    worst = robust(task, scene, SHARPEST, SOLVE_S)
+    yield from _parts(steps)
+    for gap in GAPS:
+        yield Method("service", f"relative gap {gap:.0e}", steps.run(gap, steps.whole))
+    obstacle, single = _obstacle(judge), judge.single_sum
+    absent = set[str]()
+    for method in methods():
+        reason = obstacle
+        if method.name == "cone_program_matrices":
+            if single is not None:
+                yield replace(method, prepare=partial(_with_rows, method, single))
+                continue
+            reason = _MANY_SUMS.format(MANY)
+        elif method.name == "sampled_angles":
+            reason = _NO_SCENARIOS if steps.task.scenarios else _NO_SCATTER
+        if method.name == "service" or method.name in absent:
+            continue
+        if reason is not None:
+            absent.add(method.name)
+            yield Method(method.name, "none", partial(_absent, reason))
+        else:
+            yield replace(method, prepare=partial(_with_terms, method), entries=partial(_entries, method))
+
+
+def _parts(steps: "Steps") -> Iterator[Method]:
+    """The steps that see a part of the worst case."""
+    scenarios = steps.task.scenarios
+    # without scenarios the machine as it is given is a part of what may be
+    proves = not scenarios
+    yield Method("nominal", "nothing off", steps.run(SHARPEST, steps.nominal, proves))
+    for n, scenario in enumerate(scenarios if len(scenarios) > 1 else ()):
+        name = f"scenario {scenario.name}"
+        yield Method("one_scenario", name, steps.run(SHARPEST, partial(steps.of_scenarios, [n])))
+    for rounds in ROUNDS if len(scenarios) > 1 else ():
+        if rounds <= len(scenarios):
+            prepared = steps.run(SHARPEST, partial(steps.worst_scenarios, rounds))
+            yield Method("worst_scenarios", _rounds(rounds), prepared)
+    worst = steps.robust(SHARPEST, SOLVE_S)
+    if scenarios and (worst.scatters or any(worst.scatter)):
+        yield Method("partly_off", "scenarios alone", steps.run(SHARPEST, partial(steps.without, _EVERYTHING)))
     if worst.scatters and any(worst.scatter):
         for name, zero in (("counterweights", _MASSES), ("masses", _COUNTERWEIGHTS)):
             yield Method("partly_off", f"{name} alone", steps.run(SHARPEST, partial(steps.without, zero)))
     if worst.scatters:
         yield Method("first_order", "corners by derivatives", steps.run(SHARPEST, steps.first_order))
         for rounds in ROUNDS:
-            name = "1 round" if rounds == 1 else f"{rounds} rounds"
-            yield Method("corners", name, steps.run(SHARPEST, partial(steps.corners, rounds)))
-    for gap in GAPS:
-        yield Method("service", f"relative gap {gap:.0e}", steps.run(gap, steps.whole))
-    absent = set[str]()
-    for method in methods():
-        if method.name == "cone_program_matrices":
-            yield method
-        elif method.name not in _KNOWING and method.name not in absent:
-            reason = _NO_SCATTER if method.name == "sampled_angles" else obstacle
-            if reason is None:
-                yield replace(method, prepare=partial(_with_terms, method), entries=partial(_entries, method))
-            else:
-                absent.add(method.name)
-                yield Method(method.name, "none", partial(_absent, reason))
+            yield Method("corners", _rounds(rounds), steps.run(SHARPEST, partial(steps.corners, rounds)))
+
+
+def _rounds(count: int) -> str:
+    return "1 round" if count == 1 else f"{count} rounds"
 
 
 def _entries(method: Method, task: LadderProgram) -> int:
@@ -107,38 +131,69 @@ def _with_terms(method: Method) -> Run:
     return result
 
 
+def _with_rows(method: Method, statement: Statement) -> Run:
+    """A method that takes what is off as it is, with one sum of every row with every other."""
+    run = method.prepare()
+    return lambda task, position, limit: run(replace(task, statement=statement, sums=None), position, limit)
+
+
 def _absent(reason: str) -> Run:
     return lambda task, position, time_limit_s: reason
 
 
-def plain(statement: Statement) -> Statement | None:
+def plain(judge: Judge) -> Statement | None:
     """A program with what scatters as terms of its own; None where it is no single sum of norms."""
-    return None if _obstacle(statement) else statement.spelled()
+    return None if _obstacle(judge) else judge.statement.spelled()
 
 
-def _obstacle(statement: Statement) -> str | None:
-    if statement.norms.scatter and statement.ceilings.names:
+def _obstacle(judge: Judge) -> str | None:
+    if judge.statement.norms.scatter and judge.statement.ceilings.names:
         return _ONE_SUM.format(_OF_CEILINGS)
-    return _ONE_SUM.format(_OF_PEAKS) if statement.group[-1] > 0 else None
+    return _ONE_SUM.format(_OF_PEAKS) if judge.statement.group[-1] > 0 else None
 
 
-class _Steps:
+class Steps:
     """The steps of one task to the worst case."""
 
     def __init__(self, task: Task, scene: Prepared, usable: np.ndarray) -> None:
-        self._task, self._scene, self._usable = task, scene, usable
+        """Prepare the machines.
 
-    def run(self, gap: float, step: Step) -> Callable[[], Run]:
-        """Prepare a method that takes a step, with what it proves."""
+        Parameters
+        ----------
+        usable : (K,) webs that the program of the ladder has.
+        """
+        self.task, self._scene, self._usable = task, scene, usable
+        #: machines of the scenarios, which no run prepares again
+        self._machines = Robust(task, scene, task.demand).machines
+
+    def robust(self, relative_gap: float, time_limit_s: float) -> Robust:
+        """The program of the whole worst case, for the smallest objective alone."""
+        return self._robust(self.task, Demand(relative_gap, False, time_limit_s), self._machines)
+
+    def _robust(self, task: Task, demand: Demand, machines: Sequence[MachineOfCase]) -> Robust:
+        return Robust(task, self._scene, demand, machines)
+
+    def run(self, gap: float, step: Step, proves: bool = True) -> Callable[[], Run]:
+        """Prepare a method that takes a step.
+
+        Parameters
+        ----------
+        proves : whether its bound is one of the worst case.
+        """
 
         def run(task: LadderProgram, position: float, time_limit_s: float) -> MethodResult | str:
-            result = step(robust(self._task, self._scene, gap, time_limit_s))
+            result = step(self.robust(gap, time_limit_s))
             if isinstance(result, Conflict):
-                return _UNREACHABLE
-            point, bound = result.point, bound_beside(result.proof, result.point.values.excess)
-            return MethodResult(point.unbalance[self._usable], float(point.values.goals[-1]), lambda: bound)
+                return _UNREACHABLE if proves else f"{_UNREACHABLE} of the machine as it is given"
+            return self.result(result, proves)
 
         return lambda: run
+
+    def result(self, optimum: CertifiedOptimum, proves: bool = True) -> MethodResult:
+        """An optimum as that of a method."""
+        point = optimum.point
+        bound = bound_beside(optimum.proof, point.values.excess) if proves else -np.inf
+        return MethodResult(point.unbalance[self._usable], float(point.values.goals[-1]), lambda: bound)
 
     @staticmethod
     def nominal(worst: Robust) -> CertifiedOptimum | Conflict:
@@ -150,14 +205,37 @@ class _Steps:
         tolerances = worst.task.tolerances
         assert tolerances is not None  # there is a ladder of them
         less = tolerances.model_copy(update=dict.fromkeys(fields, 0.0))
-        return robust(replace(self._task, tolerances=less), self._scene, *worst.demand[::2]).solved()[1]
+        return self._robust(replace(self.task, tolerances=less), worst.demand, self._machines).solved()[1]
+
+    def of_scenarios(self, places: Sequence[int], worst: Robust) -> CertifiedOptimum | Conflict:
+        """The optimum with some of the scenarios, by their places."""
+        return self._subset(places, worst).solved()[1]
+
+    def _subset(self, places: Sequence[int], worst: Robust) -> Robust:
+        task = replace(self.task, scenarios=tuple(self.task.scenarios[n] for n in places))
+        return self._robust(task, worst.demand, [self._machines[n] for n in places])
+
+    def worst_scenarios(self, rounds: int, worst: Robust) -> CertifiedOptimum | Conflict:
+        """The optimum with the scenarios that so many rounds know; the first knows the worst without counterweights."""
+        every = [self._subset([n], worst) for n in range(len(self.task.scenarios))]
+        u, places = np.zeros(len(worst.space.machine.webs), complex), list[int]()
+        result: CertifiedOptimum | Conflict
+        for _ in range(rounds):
+            place = _worst(every, u)
+            if place in places:
+                break
+            places.append(place)
+            result = self.of_scenarios(places, worst)
+            if isinstance(result, Conflict):
+                break
+            u = result.point.unbalance
+        return result
 
     def first_order(self, worst: Robust) -> CertifiedOptimum | Conflict:
         """The optimum at the corners of the masses that are worst by the derivatives at the nominal optimum."""
         result = self.nominal(worst)
-        if isinstance(result, Conflict):
-            return result
-        u = result.point.unbalance
+        # where nominal ceilings cannot be kept, at what comes closest to them
+        u = (result.closest if isinstance(result, Conflict) else result.point).unbalance
         signs = [[_steepest(machine, measure, u) for measure in worst.measures] for machine in worst.machines]
         return _optimum(worst.goals_at(signs), worst)
 
@@ -178,6 +256,16 @@ class _Steps:
 
 def _optimum(goals: Goals, worst: Robust) -> CertifiedOptimum | Conflict:
     return optimum(goals.program, worst.demand.relative_gap, worst.demand.least_mass, worst.left_s)
+
+
+def _worst(scenarios: Sequence[Robust], u: Complex) -> int:
+    """The scenario that is worst with counterweights (K,): whose ceilings are exceeded most, else by its objective."""
+    figures = []
+    for scenario in scenarios:
+        scenario.learnt(u)
+        values = scenario.goals().program.values(u, SHARPEST)
+        figures.append((max(values.excess, CEILING_TOLERANCE), float(values.goals[-1])))
+    return max(range(len(figures)), key=figures.__getitem__)
 
 
 def _steepest(machine: MachineOfCase, measure: Measure, u: Complex) -> Real:

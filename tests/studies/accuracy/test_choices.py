@@ -217,7 +217,7 @@ def test_route_command_and_picture(post: Post) -> None:
     [
         ({"alternatives": [0.01]}, "/alternatives"),
         ({"objective": {"priorities": [{"goal": "external"}, {"goal": "mass"}]}}, "/objective/priorities"),
-        ({"scenarios": [{"name": "as it is"}]}, "/scenarios"),
+        ({"scenarios": [{"name": "a"}, {"name": "a"}]}, "/scenarios/1/name"),
         ({"accuracy": {"time_limit_s": 31}}, "/accuracy/time_limit_s"),
         ({"machine": twin(catalogue={"masses_kg": [3.0], "angle_step_deg": 7})}, "/machine/catalogue/angle_step_deg"),
         ({"machine": heavy(twin(web_groups=[{"name": "g", "webs": ["0a", "9"]}]))}, "/machine/web_groups/0/webs/1"),
