@@ -92,6 +92,19 @@ def test_a_front_without_its_proofs_is_not_covered() -> None:
     assert verdict(body, answer) == "not covered"
 
 
+@pytest.mark.parametrize("uncertain", [{}, {"tolerances": {"mass_relative": 0.02}}])
+@pytest.mark.parametrize("field", ["force_N", "moment_Nm"])
+def test_a_corner_that_nothing_proves_is_named(field: str, uncertain: dict[str, Any]) -> None:
+    # that a point is no farther from it than it says proves nothing of it
+    body = {**SINGLE["sum"], "points": 2, **uncertain}
+    answer = json.loads(pareto(ParetoRequest.model_validate(body)).model_dump_json())
+    place = f"/answer/fronts/*/points/*/certificate/{field}"
+    assert place in checker().verify(body, answer)["not_covered"]
+    proven = {**body, "multipliers": True}
+    answer = json.loads(pareto(ParetoRequest.model_validate(proven)).model_dump_json())
+    assert verdict(proven, answer) == "held"
+
+
 @pytest.mark.parametrize("name", SWEEPS)
 def test_the_rows_of_a_sweep(name: str) -> None:
     body, table = SWEEPS[name], swept(SWEEPS[name])
