@@ -194,7 +194,7 @@ def _mass(front: WorstFront, scale: Place, answer: Place, peaks: Peaks, there: F
     up_to = {name: limit.number(0.0) for name, limit in limits.items()}
     implied, least = proof / "implied_max_mass_kg", place.number() - fixed
     rooms, open_ended = {name: up_to[name] - peaks[name] for name in up_to}, False
-    if least.high <= 0:
+    if least.low <= 0:
         yield "mass_lower_bound", place, -least, ONE
         yield EVIDENCE, multipliers, None, ONE
     else:
