@@ -140,7 +140,7 @@ def lightest(
     place, implied = proof / "mass_lower_bound_kg", proof / "implied_max_mass_kg"
     slack = {name: size * real(CEILING) for name, size in statement.sizes.items()}
     least = place.number(0.0) - statement.machine.fixed
-    if least.high <= 0:
+    if least.low <= 0:
         yield "mass_lower_bound", place, -least if place else None, ONE
         yield EVIDENCE, multipliers / "mass", None, ONE
     else:

@@ -116,7 +116,8 @@ class Machine:
         #: what is there already: the program chooses beside it, within what it leaves of the budget
         there = [(web, *web.fixed) for web in self.webs if web.fixed is not None]
         self.there = [Mass(mass * web.radius, direction(angle), ZERO, web.position) for web, mass, angle in there]
-        self.fixed = total(mass for _, mass, _ in there)
+        # the service adds them up in doubles
+        self.fixed = total(mass for _, mass, _ in there) * self.wide
         self.left = largest(self.budget - self.fixed, ZERO) if self.budget is not None else None
         self.refresh()
 

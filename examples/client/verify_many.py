@@ -22,7 +22,7 @@ from verify_shafts import geared
 from verify_single import single
 from verify_turn import unreachable
 from verify_weights import counterweights, listed, shafts, usual_gap
-from verify_worst_front import worst_curve
+from verify_worst_front import of_both, worst_curve
 
 STATUSES = ("optimal", "inaccurate", "infeasible")
 STRAIGHT = 1e-4  # a front that lies nearer to the line between its ends has no knee
@@ -124,7 +124,8 @@ def _closed(request: Place, curve: Place) -> Claims:
     for name, unit in NAMES.items() if (curve / "status").value == "optimal" else ():
         smallest, bound = (curve / "ends" / f"smallest_{name}_{end}{unit}" for end in ("", "lower_bound_"))
         peak, size = smallest.number(), (curve / "scale" / f"{name}_{unit}").number()
-        yield "status", bound, accuracy * size + SPECK * peak - (peak - bound.number()), size
+        # that the end is near to its bound proves nothing of the bound
+        yield "status", smallest, accuracy * size + SPECK * peak - (peak - bound.number()), size
 
 
 def _scale(statement: Statement, place: Place) -> Claim:
@@ -170,9 +171,9 @@ def point(statement: Statement, request: Place, scale: Place, answer: Place) -> 
         yield near("yardstick", proof / "yardstick" / f"{name}_{unit}", size)
         if corner:
             worst = largest(worst, (peaks[name] + SPECK * peaks[name] - corner.number()) * ABOUT_ONE / size)
-            # the point is above its corner by no more than it says
+            # the point is above its corner by no more than it says: that proves nothing of the corner
             above = peaks[name] + SPECK * peaks[name] - corner.number()
-            yield "gap", corner, relative.number() * size - above, peaks[name]
+            yield "gap", relative, relative.number() * size - above, peaks[name]
     if relative:
         yield near("gap", relative, worst)
     if not optimal:
@@ -183,7 +184,8 @@ def point(statement: Statement, request: Place, scale: Place, answer: Place) -> 
     yield from _active(request, machine=statement.machine, place=answer, left=after, mass=mass)
     slack = {name: size * real(CEILING) for name, size in statement.sizes.items()}
     priced = partial(priced_at, {name: (proof / f"{name}_{unit}").number(0.0) for name, unit in NAMES.items()})
-    yield from proven("corner", proof / "force_N", statement, multipliers / "objective", implied, slack, priced)
+    of_corner = proven("corner", proof / "force_N", statement, multipliers / "objective", implied, slack, priced)
+    yield from of_both(of_corner, proof)
     most = {name: (proof / f"mass_{name}_limit_{unit}").number(0.0) for name, unit in NAMES.items()}
     if proof / "mass_lower_bound_kg":
         yield from lightest(statement, proof, multipliers, most, after, mass)

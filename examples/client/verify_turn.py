@@ -61,7 +61,7 @@ def over_turn(request: Place, answer: Place, machine: Machine, fitted: Fitted) -
     least, limit = proof / "mass_lower_bound_kg", (proof / "mass_objective_limit").number(0.0)
     if least:
         yield "mass_lower_bound", proof / "mass_objective_limit", limit + noise - value, abs(value)
-    if least and (least.number() - machine.fixed).high <= 0:
+    if least and (least.number() - machine.fixed).low <= 0:
         yield "mass_lower_bound", least, machine.fixed - least.number(), ONE
         yield EVIDENCE, multipliers / "mass", None, ONE
     elif least and multipliers / "mass":

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from typing import Dict, NamedTuple, Optional, Tuple
+from typing import Dict, Iterator, NamedTuple, Optional, Tuple
 
 from verify_answer import MASS_GAP, Fitted, fitted
 from verify_bearings import within
 from verify_ceilings import margins
-from verify_claims import EVIDENCE, Claims, covered, near
+from verify_claims import EVIDENCE, Claim, Claims, covered, near
 from verify_first import light
 from verify_levels import WIDE
 from verify_machine import NAMES, ON_FRAME, Machine
@@ -165,7 +165,7 @@ def _corner(front: WorstFront, scale: Place, answer: Place, peaks: Peaks, optima
         if place:
             above = peaks[name] + SPECK * peaks[name] - corner[name]
             worst = largest(worst, above * ABOUT_ONE / size)
-            yield "gap", place, relative.number() * size - above, peaks[name]
+            yield "gap", relative, relative.number() * size - above, peaks[name]
     if relative:
         yield near("gap", relative, worst)
     if optimal:
@@ -173,7 +173,15 @@ def _corner(front: WorstFront, scale: Place, answer: Place, peaks: Peaks, optima
         yield "status", relative, most - relative.number() if relative else None, ONE
     implied = proof / "implied_max_mass_kg"
     of = front.proven(front.both, multipliers, implied, corner) if multipliers else None
-    yield from _claimed("corner", proof / "force_N", of, multipliers, implied, front.both.mixed)
+    yield from of_both(_claimed("corner", proof / "force_N", of, multipliers, implied, front.both.mixed), proof)
+
+
+def of_both(claims: Iterator[Claim], proof: Place) -> Claims:
+    """What is proven of a corner stands in both of its peaks."""
+    for claim, place, room, size in claims:
+        yield claim, place, room, size
+        if claim == "corner":
+            yield claim, proof / "moment_Nm", room, size
 
 
 def _mass(front: WorstFront, scale: Place, answer: Place, peaks: Peaks, there: Fitted, optimal: bool) -> Claims:
@@ -186,7 +194,7 @@ def _mass(front: WorstFront, scale: Place, answer: Place, peaks: Peaks, there: F
     up_to = {name: limit.number(0.0) for name, limit in limits.items()}
     implied, least = proof / "implied_max_mass_kg", place.number() - fixed
     rooms, open_ended = {name: up_to[name] - peaks[name] for name in up_to}, False
-    if least.high <= 0:
+    if least.low <= 0:
         yield "mass_lower_bound", place, -least, ONE
         yield EVIDENCE, multipliers, None, ONE
     else:

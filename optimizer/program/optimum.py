@@ -72,5 +72,5 @@ def solution(
     if least_mass:
         of_mass = Proof(float(optima.mass_lower_bound[0]), statement, optima.mass_multipliers.subset(0))
     of_goal = Proof(float(optima.lower_bound[0]), statement, optima.multipliers.subset(0))
-    goals = (GoalLevel(program.goals[-1].name, value, of_goal, value),)
+    goals = (GoalLevel(program.goals[-1].name, value, of_goal, value, u),)
     return CertifiedOptimum(point, goals, of_mass, target, statement.limits, spent, method)

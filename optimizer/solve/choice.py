@@ -74,7 +74,7 @@ def best_choice(task: Task, scene: Prepared, in_full: bool = True, worst_case: b
             return out_of_reach(task, scene, goals, first)
         course = _in_order(task, robust, goals, first)
         stages, picked = course.stages, course.incumbent
-        if picked is None or not robust.learnt(picked.unbalance) or robust.left_s == 0.0:
+        if picked is None or not robust.learnt(*course.unbalances) or robust.left_s == 0.0:
             break
     # judged by all changes of masses that are known, of which those before have proven no less
     goals = robust.goals() if robust.scatters else goals
@@ -168,6 +168,7 @@ class _GoalOrder:
     caps: Caps = NO_CAPS
     incumbent: Choice | None = None  # that keeps all so far
     closed: bool = True  # the gaps of all goals are the asked ones
+    unbalances: list[Complex] = field(default_factory=list)  # (K,) kg m, of the choice of every goal
     _reached: list[GoalLevel] = field(default_factory=list)
 
     def smallest(self, later: int, reserve_s: float) -> bool:
@@ -193,7 +194,7 @@ class _GoalOrder:
         self.closed &= left <= max(choice_gap * size, EQUAL * size)
         # choices that are this near are equal, which leaves room for the brackets by which they are judged
         most = max(value, outcome.lower_bound + goal.allowance * size) + EQUAL * size if later else value
-        self._reached.append(GoalLevel(goal.name, value, best.proof, most))
+        self._reached.append(GoalLevel(goal.name, value, best.proof, most, picked.unbalance))
         if self.task.objective.priorities and outcome.feasible:
             square = self.robust.scene.omega_squared
             least = finite_or_null(self._bound(outcome.lower_bound, value, EQUAL * size) * square)
@@ -201,6 +202,7 @@ class _GoalOrder:
                 GoalReached(goal=goal.name, value=value * square, lower_bound=least, limit=most * square)
             )
         self.incumbent = picked
+        self.unbalances.append(picked.unbalance)
         return outcome.feasible
 
     def _bound(self, bound: float, value: float, rounding: float) -> float:
@@ -237,6 +239,7 @@ class _GoalOrder:
         gap = self.task.relative_gap * value if kind == "mass" else 0.0
         self.closed &= value - bound <= gap
         self.caps, self.incumbent = self.caps.lower(kind, most), choice
+        self.unbalances.append(choice.unbalance)
         fixed = float(np.sum(fixed_masses(self.task.machine))) if kind == "mass" else 0.0
         limits = {
             "value": value + fixed,

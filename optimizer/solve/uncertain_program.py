@@ -189,10 +189,14 @@ class Robust:
         every = [np.concatenate([machine.corners(measure) for measure in self.measures]) for machine in self.machines]
         return self.goals_at([list(np.unique(corners, axis=0)) for corners in every]).program
 
-    def learnt(self, u: Complex) -> bool:
-        """Whether counterweights (K,) have shown changes of masses that are worse than those known before."""
-        if not self.scatters:
-            return False
+    def learnt(self, *unbalances: Complex) -> bool:
+        """Whether counterweights (K,), one set or several, have shown changes of masses worse than those known."""
+        # of all of them, so that what is known holds for each
+        worse = [self._has_worse(u) for u in unbalances if self.scatters]
+        return any(worse)
+
+    def _has_worse(self, u: Complex) -> bool:
+        """The same of one set, whose worse changes are known from then on."""
         new = [
             list(self._worse(machine, changes, u)) for machine, changes in zip(self.machines, self._signs, strict=True)
         ]
@@ -215,7 +219,8 @@ class Robust:
         for _ in range(MOST_ROUNDS):
             goals = self.goals()
             result = self._cut(goals.program) or optimum(goals.program, gap, least, self.left_s)
-            if isinstance(result, Conflict) or not self.learnt(result.point.unbalance):
+            # what an earlier goal came to is judged like the answer
+            if isinstance(result, Conflict) or not self.learnt(*result.every_unbalance):
                 return goals, result
             if result.timed_out:
                 break

@@ -5,10 +5,12 @@ from typing import Any
 
 import pytest
 
+from optimizer.optimize import optimize
 from optimizer.studies.pareto.pareto import pareto
 from optimizer.studies.sweep.rows import rows
 from optimizer.studies.sweep.table import result_schema, result_table
 from schemas.front.pareto import ParetoRequest
+from schemas.request.requests import OptimizeRequest
 from schemas.sweep.request import SweepRequest
 from service.verification import checker
 from tests.night import every, part
@@ -90,6 +92,35 @@ def test_a_front_without_its_proofs_is_not_covered() -> None:
     statements = claims(body, answer)
     assert (statements["corner"], statements["mass_lower_bound"]) == ("not covered", "not covered")
     assert verdict(body, answer) == "not covered"
+
+
+@pytest.mark.parametrize("uncertain", [{}, {"tolerances": {"mass_relative": 0.02}}])
+@pytest.mark.parametrize("field", ["force_N", "moment_Nm"])
+def test_a_corner_that_nothing_proves_is_named(field: str, uncertain: dict[str, Any]) -> None:
+    # that a point is no farther from it than it says proves nothing of it
+    body = {**SINGLE["sum"], "points": 2, **uncertain}
+    answer = json.loads(pareto(ParetoRequest.model_validate(body)).model_dump_json())
+    place = f"/answer/fronts/*/points/*/certificate/{field}"
+    missing = checker().verify(body, answer)["not_covered"]
+    assert {place, "/answer/fronts/*/ends/smallest_force_lower_bound_N"} <= {*missing}
+    proven = {**body, "multipliers": True}
+    answer = json.loads(pareto(ParetoRequest.model_validate(proven)).model_dump_json())
+    assert verdict(proven, answer) == "held"
+
+
+@pytest.mark.parametrize("more", [{}, {"tolerances": {"mass_relative": 0.02}}, {"objective": {"orders": "all"}}])
+def test_masses_of_fixed_weights_are_added_in_doubles(more: dict[str, Any]) -> None:
+    # analytic: 0.1 + 0.1 + 0.1 + 0.4 kg come to 0.7000000000000001 kg
+    body = json.loads(json.dumps(body_of("twin", ["all fixed"]))) | more
+    body["machine"]["webs"][3]["fixed"]["mass_kg"] = 0.4
+    answer = json.loads(optimize(OptimizeRequest.model_validate(body)).model_dump_json())
+    assert answer["certificate"]["mass_lower_bound_kg"] == 0.7000000000000001
+    assert not broken(body, answer)
+    if "objective" not in more:
+        front = {**body, "points": 2, "multipliers": True}
+        assert verdict(front, json.loads(pareto(ParetoRequest.model_validate(front)).model_dump_json())) == "held"
+    answer["certificate"]["mass_lower_bound_kg"] *= 1 + 1e-12
+    assert is_broken(body, answer)
 
 
 @pytest.mark.parametrize("name", SWEEPS)

@@ -53,6 +53,7 @@ class GoalLevel(NamedTuple):
     value: float
     proof: Proof
     most: float  # that it may come to for what follows
+    unbalance: Complex  # (K,) kg m, of the counterweights that come to the value
 
     @property
     def lower_bound(self) -> float:
@@ -79,6 +80,11 @@ class CertifiedOptimum:
     def proof(self) -> Proof:
         """Of the objective."""
         return self.goals[-1].proof
+
+    @property
+    def every_unbalance(self) -> tuple[Complex, ...]:
+        """Of the counterweights themselves, and of those that a goal came to its value with."""
+        return (self.point.unbalance, *(goal.unbalance for goal in self.goals))
 
     def certain(self) -> "CertifiedOptimum":
         """This one, where there has to be one."""
@@ -235,7 +241,7 @@ class _Course:
         most = max(value, proof.bound + share)
         if n + 1 < len(self.program.goals):
             most += _RESERVED * float(self.program.units[n])
-        self.goals[n:] = [GoalLevel(self.program.goals[n].name, value, proof, most)]
+        self.goals[n:] = [GoalLevel(self.program.goals[n].name, value, proof, most, self.inside.unbalance)]
 
     def lightest(self, target: float, margin: float) -> Proof | None:
         """The least mass under all goals.
