@@ -32,7 +32,7 @@ class CastingsBeside:
     castings: np.ndarray  # (K,) bool: those
     least: Real  # (K,) kg, of the others; 0 where there is none
     limits: Limits  # (K,)
-    lightest: bool  # of all that are optima, but for their share, the lightest is wanted
+    lightest: bool  # prefer the lightest of all that are optima, but for their share
 
     solved = True
 

@@ -108,7 +108,7 @@ def counterweights(
 
     Parameters
     ----------
-    vectors : (K,) kg m, their unbalances where they are known.
+    vectors : (K,) kg m, their unbalances, if at hand.
     """
     return _placed(machine, mass_kg, angles_deg, own_throws(machine), 1.0, vectors)
 

@@ -199,7 +199,7 @@ def largest_mass(machine: Machine) -> Real:
     allowed = [limit.mass(machine) for limit in entries if isinstance(limit, MassLimit)]
     mass = reduce(np.minimum, allowed) if allowed else np.full(len(machine.webs), np.inf)
     if any_fixed(machine):
-        # nothing is chosen there
+        # their counterweights are no variables
         mass = np.where(fixed_webs(machine), 0.0, mass)
     # null, or more than can be multiplied
     many = mass > _NO_LIMIT

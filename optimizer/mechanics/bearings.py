@@ -161,7 +161,7 @@ def _arms(bearing: Real, position: Real, station: Real, reaction: Real, load: Re
 class _Spans(NamedTuple):
     """Loads on the spans between neighbouring bearings in rising z; an end span has its overhang with it."""
 
-    rank: NDArray[np.intp] | None  # (..., B) where each bearing as given stands in rising z; None where all do so
+    rank: NDArray[np.intp] | None  # (..., B) rank of each bearing in rising z; None where all are in that order
     length: Real  # (..., B-1, 1) m
     carries: Real  # (..., B-1, L) 1 for the span that has the load, else 0
     #: (2, ..., B-1, L) m, from the load to the right bearing, and from the left bearing to the load; negative on the

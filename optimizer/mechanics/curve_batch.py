@@ -1,6 +1,6 @@
-"""Curves of several forces of the rows of one machine, so that all that is asked of them is searched together.
+"""Curves of several forces of the rows of one machine, so that one search serves all.
 
-Whatever is asked for at an angle, the rows are expanded about it once, and each force is read from that once.
+The rows are expanded about an angle once, whatever the forces, and each force is read from that expansion.
 """
 
 from itertools import accumulate, chain, pairwise

@@ -50,10 +50,10 @@ class CurveSeries:
 
     def over(self, points: RowSeries | None, bounds: RowSeries | None, half: Real) -> tuple[Complex, Real, Real]:
         """Coefficients (J, P, order + 1) over the angles of series, in units of half widths (N, P); by bounds what they
-        leave out (J, P), and of both the size (J,) of what is added up. Nothing of what is not given."""
+        leave out (J, P), and of both the size (J,) of what is added up. Empty for a series that is None."""
         entry = turn_kernel()
         series, nothing = points or bounds, repeat((entry.NOTHING, None))
-        assert series is not None  # one of both is given
+        assert series is not None  # at least one is there
         rows, kinds = series.rows, entry.NO_KINDS if series.kinds is None else series.kinds.places
         functions = (nothing if series is None else series.functions(self._has_gas) for series in (points, bounds))
         results, order = [], -1 if bounds is None else bounds.order

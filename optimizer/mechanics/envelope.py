@@ -140,7 +140,7 @@ class Segment(Plate):
         total = np.sqrt(apart) * _sum_of_halves(size)
         half = np.where(size > 1.0, 0.5 * (total + apart / total), np.cbrt(cube))
         result = np.minimum(np.arcsin(np.minimum(half / self.outer, 1.0)), self.most)
-        # at a right angle an opening is no better known than to 1e-8, but a full plate is full
+        # near a right angle an opening has an error of 1e-8, but a full plate is full
         return np.where(unbalance >= self.unbalance(self.most), self.most, result)
 
     def chord(self, half_angle: Reals) -> Real:

@@ -42,8 +42,8 @@ class Reciprocating:
     crank_direction: Complex
     axis: Complex
     position: Real  # m
-    rod_ratio: Real  # r/l; 0 for an infinite rod, nan where the rod is not given
-    #: r/l - rod_ratio, what rounding the quotient took off; None where that is not known
+    rod_ratio: Real  # r/l; 0 for an infinite rod, nan without a rod
+    #: r/l - rod_ratio, the rounding error of the quotient; None without one
     rod_ratio_rest: Real | None = None
 
     @property
@@ -88,7 +88,7 @@ class Layout:
 
     @property
     def central(self) -> bool:
-        """Whether couples are reported about the plane in which they are summed, as where none is given."""
+        """Whether couples are reported about the plane in which they are summed, which is the default."""
         return self.reference_plane is self.centre_plane
 
 

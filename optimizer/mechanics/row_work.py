@@ -35,7 +35,7 @@ class RowWork:
 
     friction : (..., rows) N; None where there is none.
     chambers : of the rows, none of them with a table of pressures; None where there is no gas.
-    indicated : work put into the gas of every chamber in one turn (..., rows, C) J, where it is known already.
+    indicated : work put into the gas of every chamber in one turn (..., rows, C) J, if at hand.
     """
 
     layout: Layout
@@ -55,7 +55,7 @@ class RowWork:
 
         It repeats with every turn.
         """
-        # the compiler is loaded when it is first needed
+        # the compiler is loaded at its first use
         from optimizer.mechanics.kernel.chamber_values import work_values
 
         moving, rows = motion(self.layout, angle), row_table(self.layout)

@@ -80,7 +80,7 @@ class WholeTurn:
     centre, half : (N, P) rad; half is 0 where breaks coincide.
     turns : of the shaft, after which all repeats.
     means : (N, R) N, of the tangential forces, where there is a closed form.
-    squared : whether mean squares are asked for: what bounds their quadratures bounds the pieces too.
+    squared : whether mean squares are computed: what bounds their quadratures bounds the pieces too.
     readings : of the forces of many designs, that columns will need.
     single : whether it is of a machine by itself. Designs of a sweep are worked out as beside others, however many.
     """
@@ -137,7 +137,7 @@ class WholeTurn:
 
     @cached_property
     def forces(self) -> DesignForces | None:
-        """Forces of the rows of many designs; None where it is not known which will be asked for."""
+        """Forces of the rows of many designs; None without a list of readings."""
         if len(self.centre) == 1 or self.squared or not self.readings:
             return None
         return DesignForces(self.rows, self.centre, self.half, self.readings)
@@ -301,7 +301,7 @@ class TurnCurves:
     @cached_property
     def _parts(self) -> Real:
         """Number of equal parts of every piece (N, P) in the quadrature: the more, the more is left out there."""
-        # the compiler is loaded when it is first needed
+        # the compiler is loaded at its first use
         from optimizer.mechanics.kernel.quadrature import equal_parts
 
         number, size = np.empty(self.whole.half.shape), self.pieces.size.reshape(self.weights.shape[:2])

@@ -16,7 +16,7 @@ from optimizer.numerics.four_lists import nearest_sums
 
 #: sums of a quarter, and quarters that are dealt out in a row without finding a better set
 _SUMS, _PATIENCE = 400_000, 20
-#: coordinates, each of two numbers, from which on what is near to a point is no quicker found than looked at
+#: coordinates, each of two numbers, from which on a search near a point is no faster than a look at all
 _MANY = 5
 #: slots with a choice from which on quarters hold more than neighbourhoods do
 _FEWEST = 12

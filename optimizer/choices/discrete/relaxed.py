@@ -1,4 +1,4 @@
-"""What the batch kernel is given in place of options: discs, segments and sectors about those that are left."""
+"""Options as the batch kernel takes them: discs, segments and sectors about those that are left."""
 
 from dataclasses import replace
 from typing import NamedTuple
@@ -12,7 +12,7 @@ from optimizer.program.limits import Limits
 from optimizer.program.methods.compiled import suits_kernel
 from optimizer.program.statement import Statement
 
-#: share of its size that a relaxed slot without room is given, which the kernel needs
+#: share of its size for a relaxed slot without room: the kernel takes no limit of 0
 _SPECK = 1e-9
 
 

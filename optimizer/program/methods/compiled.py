@@ -56,7 +56,7 @@ MOST_NORMS = 150
 class StageSolutions(Solutions):
     """Where both stages of N programs ended: of the points that they came upon the lightest that is an optimum."""
 
-    smallest: Complex  # (N, K) kg m, the smallest objective found, whatever its mass
+    smallest: Complex  # (N, K) kg m, of the smallest objective in either stage, whatever its mass
     certified: np.ndarray  # (N,) bool: nothing better is worth looking for
 
 
@@ -80,14 +80,14 @@ def stage_solutions(
 ) -> StageSolutions:
     """Both stages of N statements of one shape, one leading axis (N,).
 
-    What is found for one program does not depend on the others.
+    The result for one program does not depend on the others.
 
     Parameters
     ----------
     share : (N,) how far above the smallest objective an optimum may be, in units of the objective.
-    demand : (N,) gap that is asked for; one above the share is met by less than the best.
+    demand : (N,) target gap; one above the share is met by less than the best.
     precision : solve in finer numbers, interpreted: a thousand times slower.
-    at_least : (N,) what the objective is known to come to under the ceilings, which may be far more than at rest.
+    at_least : (N,) lower bound of the objective under the ceilings, which may be far more than at rest.
     """
     if precision is not None:
         finest = precision.finest
@@ -299,7 +299,7 @@ def _physical(
 def _scales(
     statement: Statement, share: Real, tolerances: _Tolerances, at_least: Real | float
 ) -> tuple[Real, Real, Real]:
-    """How far webs reach (N, K), the unit of the objective (N,), and in that the share and the asked gap (2, N)."""
+    """How far webs reach (N, K), the unit of the objective (N,), and in that the share and the target gap (2, N)."""
     region, influence = statement.flat.programs.region, in_order(statement.norms.influence)
     many, _, webs = influence.shape
     reach, unit, demands = np.empty((many, webs)), np.empty(many), np.empty((2, many))
@@ -332,7 +332,7 @@ def pulled(statement: Statement, u: Complex, inside: Complex) -> Complex:
 
 
 def _by_interior_point(statement: Statement, reach: Real, unit: Real, margin: float, *stages: Any) -> tuple[Any, ...]:
-    # the compiler is loaded when it is first needed
+    # the compiler is loaded at its first use
     from optimizer.program.kernel.interior_point import solve
 
     return _in_frame(statement, *solve(_programs(statement, reach, unit, margin), *stages))

@@ -149,7 +149,7 @@ def _basis(statement: Statement) -> np.ndarray | None:
         return _places(vectors)
     responses = [term.response for term in statement.names.terms] + list(statement.ceilings.names)
     if len(responses) != vectors:
-        # names of more than is asked for
+        # the names cover more than these vectors
         return None
     two = list(dict.fromkeys(responses))
     return np.array([two.index(name) for name in responses]) if len(two) < 3 else None

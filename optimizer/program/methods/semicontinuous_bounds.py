@@ -29,8 +29,8 @@ def within_semicontinuous_reach(statement: Statement, least: Real, level: float 
     Parameters
     ----------
     least : (K,) kg, of what is fitted; 0 where there is none.
-    level : what the objective of some choice is known to reach within the ceilings, or more; inf where none is known.
-        By default what it comes to without counterweights, if these ceilings allow that.
+    level : value of the objective at some choice within the ceilings, or more; inf without such a choice.
+        By default its value without counterweights, if these ceilings allow that.
     """
     limits, far = statement.limits, far_limits(statement)
     if not far.any():
