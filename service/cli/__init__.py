@@ -31,7 +31,7 @@ _COLLECTED_AFTER = 250_000
 #: read by libraries when they are imported: matrices are small, and threads that wait for large ones take a fifteenth
 #: of a first answer; plugins of models are looked for in all that is installed
 _LIBRARIES = {"OPENBLAS_NUM_THREADS": "1", "PYDANTIC_DISABLE_PLUGINS": "__all__"}
-#: setting of the service; at debug a fault of the program is told with its traceback
+#: setting of the service; at debug a fault of the program comes with its traceback
 _LOG_LEVEL = "COUNTERWEIGHT_LOG_LEVEL"
 
 

@@ -20,7 +20,7 @@ _LIBRARY = ctypes.CDLL(None, use_errno=True)
 _ATTRIBUTES = struct.Struct("=IIQiIQQQ")
 #: policies that know slices: those of ordinary threads
 _FAIR = (0, 3)
-#: of what answers as soon as it is asked [s], the least that the system takes
+#: of short answers [s], the least that the system takes
 SHORT_S = 0.0001
 
 
