@@ -47,13 +47,13 @@ _PROGRAM: dict[str, str] = {
     " -> self.levels.of_bound - self.levels.most - self.margin": _STEERS,
     "cuts/stage.py run: 0.0 -> 0.001": _STEERS,
     "methods/cascade.py _under_ceilings: nearest.objective <= -AMPLE -> nearest.objective < -AMPLE": _ALIKE,
-    "methods/compiled.py _programs: np.add.reduce(mass, axis=-1, keepdims=True)"
+    "methods/stage_ends.py _programs: np.add.reduce(mass, axis=-1, keepdims=True)"
     " -> np.add.reduce(mass, axis=+1, keepdims=True)": "it has two axes",
-    "methods/compiled.py _programs: np.maximum.reduce(statement.floor, axis=-1)"
+    "methods/stage_ends.py _programs: np.maximum.reduce(statement.floor, axis=-1)"
     " -> np.maximum.reduce(statement.floor, axis=+1)": "it has two axes",
-    "methods/compiled.py _programs: -1 -> +1": "it has two axes",
-    "methods/compiled.py _solve: statement.limits.radius.shape[-1] -> statement.limits.radius.shape[-2]": "without webs"
-    " the same is found by solving",
+    "methods/stage_ends.py _programs: -1 -> +1": "it has two axes",
+    "methods/stage_ends.py solve_stages: statement.limits.radius.shape[-1] -> statement.limits.radius.shape[-2]": "without"
+    " webs solving gives the same",
     "methods/polish.py lightened: statement.limits.radius.size == 0 -> statement.limits.radius.size == 1": _STEERS,
     "methods/compiled.py _general: points_at(statement.subset(left), nearest).excess < 0"
     " -> points_at(statement.subset(left), nearest).excess < 1": _STEERS,

@@ -53,7 +53,7 @@ def discs_of(
 ) -> Sequence[tuple[np.ndarray | None, bool, "Discs"]]:
     """N programs in parts of one form each: which they are, whether they have a budget, and in units of their own.
 
-    Parameters are those of a method of :mod:`optimizer.program.methods.compiled`. Of one part alone which they are is
+    Parameters are those of a method of :mod:`optimizer.program.methods.stage_ends`. Of one part alone which they are is
     None: all.
 
     Parameters
