@@ -52,8 +52,8 @@ _PROGRAM: dict[str, str] = {
     "methods/stage_ends.py _programs: np.maximum.reduce(statement.floor, axis=-1)"
     " -> np.maximum.reduce(statement.floor, axis=+1)": "it has two axes",
     "methods/stage_ends.py _programs: -1 -> +1": "it has two axes",
-    "methods/stage_ends.py solve_stages: statement.limits.radius.shape[-1] -> statement.limits.radius.shape[-2]": "without"
-    " webs solving gives the same",
+    "methods/stage_ends.py solve_stages: statement.limits.radius.shape[-1]"
+    " -> statement.limits.radius.shape[-2]": "without webs solving gives the same",
     "methods/polish.py lightened: statement.limits.radius.size == 0 -> statement.limits.radius.size == 1": _STEERS,
     "methods/compiled.py _general: points_at(statement.subset(left), nearest).excess < 0"
     " -> points_at(statement.subset(left), nearest).excess < 1": _STEERS,
