@@ -1,7 +1,7 @@
 """How far plates are opened in the lightest optimum, all but: a guess, about which tangents are laid.
 
 What coarse tangents call for is proven of nothing, but the responses are nearly right. They are kept, and so are webs
-without a plate; every plate is opened up to where one more kilogram metre costs what it is worth at a price of the
+without a plate. Every plate is opened up to where one more kilogram metre costs what it is worth at a price of the
 responses. Newton's steps on the concave dual give the price at which the plates make up the responses:
 
     max over p of Re(conj(h) . p) - sum_k m*_k(|s_k|),    s_k = sum_j H_jk p_j,    m*(s) = max_U s U - m(U).

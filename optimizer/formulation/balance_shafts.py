@@ -1,8 +1,8 @@
 """What a request with balance shafts chooses: counterweights on the crankshaft and, behind them, those on the shafts.
 
 The program gets one machine with all these webs. It is affine in the unbalance of a shaft that turns backwards only
-beside its mirror image at the x axis (:class:`optimizer.responses.response.Response`), so there the web of such a shaft
-stands for that; over all orders nothing is mirrored (:class:`optimizer.responses.curve.TurnResponse`).
+beside its mirror image at the x axis (:class:`optimizer.responses.response.Response`). So there the web of such a shaft
+stands for the mirror image. Over all orders nothing is mirrored (:class:`optimizer.responses.curve.TurnResponse`).
 """
 
 from collections.abc import Sequence

@@ -29,8 +29,8 @@ _ABOVE_ENVELOPE = 1e-12
 def masses_and_angles(machine: Machine, unbalance: Complex, limits: Limits) -> tuple[Real, Real]:
     """Masses [kg] and angles [deg] of unbalances [kg m] (..., K), within the limits of the webs to the last digit.
 
-    What a sum or the rounding of an angle has left outside, or next to a limit, is brought to the limit; webs that are
-    to be alike are so to the last digit.
+    What a sum or the rounding of an angle has left outside, or next to a limit, is brought to the limit. Webs with
+    equal castings are equal to the last digit.
 
     Parameters
     ----------

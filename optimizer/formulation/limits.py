@@ -23,7 +23,7 @@ from optimizer.program.sensitivity import ShadowPrices
 from schemas.answer.limits import MachineLimit, WebLimit
 from schemas.machine.machine import Machine
 
-#: a limit counts as touched when what it limits is nearer than this share of it; optima may differ by
+#: a limit counts as touched when the quantity is nearer to it than this share of it. Optima may differ by
 #: 1e-6 of the objective, which is more than that of a mass
 TOUCHED = 1e-4
 #: a larger limit is none, kg

@@ -5,7 +5,7 @@ The two planes through z do not know each other and obey the same formulas, so o
 Crank throws take part through the planes of their loads alone.
 
 Signs. A load is a force as the project counts it: on the frame, positive outward; the shaft carries it to the
-bearings. A bearing load is the force of the shaft on the bearing (the bearing pushes back with its negative), so that
+bearings. A bearing load is the force of the shaft on the bearing (the bearing pushes back with its negative). So
 at every instant the bearing loads have the sum of the loads and their couple about any plane. Both may be divided by
 omega^2, as everywhere: kg m instead of N.
 
@@ -34,9 +34,9 @@ _COINCIDENT = 1e-9
 def simple_spans(bearing: Real, position: Real, load: Complex) -> Complex:
     """Bearing loads of a shaft hinged at every intermediate bearing: statically determinate.
 
-    Each span carries its own loads to its two bearings by the lever rule. Loads beyond an outermost bearing are
-    carried by the end span next to them as an overhanging beam, which presses on the outer bearing with more than the
-    load and lifts the inner one.
+    Each span carries its own loads to its two bearings by the lever rule. The end span carries loads beyond an
+    outermost bearing as an overhanging beam: it presses on the outer bearing with more than the load and lifts the
+    inner one.
 
     Parameters
     ----------

@@ -96,8 +96,8 @@ class Layout:
 def layout(machine: ReciprocatingMachine | ScrollMachine) -> Layout:
     """Arrays of one machine, or of many; rods are shared between crosshead and pin here.
 
-    A field may hold a column (N,), one value for each of N machines that differ in nothing else; what depends on it
-    then has the leading axis (N,), the rest has none. Without columns there are no leading axes.
+    A field may hold a column (N,), one value for each of N machines that differ in nothing else. Figures that depend on
+    it then have the leading axis (N,), the others none. Without columns there are no leading axes.
     Source: lecture slides on compressors and slides on balancing (share of the rod).
     """
     if isinstance(machine, ScrollMachine):

@@ -1,8 +1,8 @@
 """Work of the rows on the shaft from one angle to another, in closed form, and what a flywheel takes up of it.
 
-With the exact motion the lever of a row is dx/dphi, so that its torque does the work of the piston force: of m a that
-is m c^2 / 2, of the friction the force times the way, of the gas -integral of p dV over the processes of a chamber.
-A motion cut off after the second order has levers that are not its own, and tables of pressures have no such form: for
+With the exact motion the lever of a row is dx/dphi, so that its torque does the work of the piston force. The work of
+m a is m c^2 / 2, of the friction force times way, of the gas -integral of p dV over the processes of a chamber.
+A motion cut off after the second order has levers that are not its own, and tables of pressures have no such form. For
 those there is the quadrature of :mod:`optimizer.mechanics.turn`.
 """
 

@@ -14,9 +14,9 @@ from optimizer.numerics.loading import MachineCode
 
 # the third level takes 7 % more of the compiler's time; curves of sweeps are faster by 1 % with it, nothing else is
 config.OPT = type(config.OPT)(2)
-# vectors of 512 bits stay off: answers take as long with them, and sweeps at most 3 % less; and numba looks at
-# processor features once, when the first function of any package is declared: whoever imports OpenMDAO before this one
-# would compile every kernel once more
+# vectors of 512 bits stay off: answers take as long with them, and sweeps at most 3 % less. Numba looks at processor
+# features once, when the first function of any package is declared. Who imports OpenMDAO before this module would then
+# compile every kernel once more
 
 
 def _cached(**options: bool) -> Callable[[Any], Any]:

@@ -1,7 +1,7 @@
 """What an answer may claim: one rule for single answers, sweeps and fronts.
 
-The bound and the value are compared as they are. A bound is lowered to the value where it is above it by no more than
-the rounding error of the value; a bound further above contradicts the answer, and then nothing is proven.
+The bound and the value are compared as they are. A bound above the value by no more than the rounding error of the
+value is lowered to it. A bound further above contradicts the answer, and then nothing is proven.
 """
 
 import logging

@@ -1,6 +1,6 @@
 """Piston rods and motor from tables: the design is done again until both suffice.
 
-A thicker rod takes area from the crank side, so that bore and gas force grow with it; a motor runs at a speed of its
+A thicker rod takes area from the crank side, so that bore and gas force grow with it. A motor runs at a speed of its
 own, which changes volumes and power. No choice is ever taken back for a smaller one, so that this ends.
 """
 

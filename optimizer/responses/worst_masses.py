@@ -3,7 +3,7 @@
 Every row adds its part g_r(theta) to a curve d(theta), times 1 + e_r with |e_r| no more than a share p. For one angle
 the largest |d + sum e_r g_r| is that along some direction phi, Re(e^{-j phi} d) + p sum_r |Re(e^{-j phi} g_r)|: a
 search in angle and direction, two numbers however many rows there are. In a cell of both most rows have one sign all
-over it, and with these signs they are one polynomial with the curve; the others are bounded by what they may come to
+over it, and with these signs they are one polynomial with the curve. The others are bounded by their sizes
 along its directions. Where few are left all their signs are tried, so that cells end with one sign for every row and
 close in on a peak like those of a curve.
 """

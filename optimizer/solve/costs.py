@@ -1,7 +1,7 @@
 """The smallest costs of choices under levels of goals: their mass, their number, their sizes.
 
-Bisection gives the fewest that keep a level: for a number of them the smallest of the last goal is sought, until
-it is below the level, or proven to be above it. The least mass is a goal as others are; of one goal of the first order
+Bisection gives the fewest that keep a level. For a number of them the smallest of the last goal is sought, until
+it is below the level, or proven to be above it. The least mass is a goal as others are. Of one goal of the first order
 light sets are compared outright.
 """
 

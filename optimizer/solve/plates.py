@@ -2,7 +2,7 @@
 
 The mass m(U) of a plate is convex. Tangents of it are webs in one plane, each with a radius and a largest mass of its
 own, which together are no heavier than what is cut: what is proven of them is proven of the plate. What they call for
-is cut, and is the answer. They are laid about where the answer is guessed to be, and closer about what they call for,
+is cut, and is the answer. Tangents are laid about a guess of the answer, and closer about what they call for,
 until the gap is at its target. A budget holds of what is cut and not of its tangents: such programs are solved by cuts.
 """
 

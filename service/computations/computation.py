@@ -1,7 +1,7 @@
 """What a computation of the service is: its models, the function that answers, and the forms of answers.
 
-A computation is data and refers to models and functions by name: to read one loads neither schemas nor optimiser, and
-it goes to a worker as it is, which looks up there what it refers to.
+A computation is data and refers to models and functions by name. To read one loads neither schemas nor optimiser. It
+goes to a worker as it is, which looks up there what it refers to.
 """
 
 from collections.abc import Callable

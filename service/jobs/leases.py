@@ -58,8 +58,8 @@ class Leases:
     def claim_chunks(
         self, owner: str, lease_s: float, most: int, attempted: bool = False, exclusions: Collection[str] = ()
     ) -> list[Chunk]:
-        """Lease chunks of one job: of the owner with the fewest chunks in work, and of their job with the fewest, so
-        that nobody waits for somebody else's large or many jobs.
+        """Lease chunks of one job: of the owner with the fewest chunks in work, and of their job with the fewest. So
+        nobody waits for somebody else's large or many jobs.
 
         Parameters
         ----------

@@ -1,7 +1,7 @@
 """Light sets near the optimum of any masses, of slots with many options.
 
-The lightest optimum of any masses is on few webs. Of their options those that are near to it, beside light ones on two
-or four other slots, are compared in halves: some ten thousand sums on either side, of each the nearest of the other.
+The lightest optimum of any masses is on few webs. Their options near it are compared in halves, beside light ones on
+two or four other slots: some ten thousand sums on either side, of each the nearest of the other.
 Force and moment have four real dimensions, in which so many sums lie close together.
 """
 

@@ -1,6 +1,6 @@
 """Branch and bound: nodes are what is left of the options; the batch kernel finds the multipliers of their bounds.
 
-A node is first bounded by the multipliers of the one that it comes from, raised a little; what that does not close is
+A node is first bounded by the multipliers of its parent, raised a little. What that does not close is
 relaxed to discs, segments and sectors about its options, which the kernel takes as limits (``relaxed.py``). Whatever it
 returns, multipliers prove (``bound.py``), and options by which the bound rises to the incumbent are left out.
 """

@@ -1,6 +1,6 @@
 """Sums of one half of the slots beside those of the other.
 
-A sum of norms is no less than the Euclidean norm of all, so nothing outside a ball about what has to be cancelled is
+A sum of norms is no less than the Euclidean norm of all. So nothing outside a ball about what has to be cancelled is
 better than the incumbent, and every pair inside it is evaluated.
 """
 

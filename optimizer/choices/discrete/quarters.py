@@ -1,6 +1,6 @@
 """Sums of four quarters of the slots that all but cancel, where the options come as close as one likes.
 
-Where their hull reaches what no mass can undercut, no tree proves more: what is left is to find sums that come near to
+Where their hull reaches what no mass can undercut, no tree proves more. The search is then for sums that come near to
 a point, among more sets than two halves hold (:mod:`optimizer.numerics.four_lists`).
 """
 

@@ -19,9 +19,9 @@ _SPECK = 1e-9
 def apart(statement: Statement, options: Options) -> tuple[Statement, Options, np.ndarray]:
     """A program that the kernel takes and the options of its unknowns, and the slot of each unknown.
 
-    An unknown is what the webs of a slot carry together where the kernel takes that. Where it does not, because cranks
-    are in several planes or a web has a mirror image, it is a web: what is proven knows that webs are alike all the
-    same (``bound.py``).
+    An unknown is what the webs of a slot carry together where the kernel takes that. It does not where cranks are in
+    several planes or a web has a mirror image; there an unknown is a web. The proof knows all the same that webs are
+    equal (``bound.py``).
     """
     alike, slots = options.alike, np.arange(options.slots)
     if alike is None:

@@ -143,7 +143,7 @@ def _alternate(incumbent: MixedIncumbent, relaxed: Complex, clock: Clock, enough
 def _lightened(
     incumbent: MixedIncumbent, limit: float, share: float, clock: Clock, result: SearchResult
 ) -> MixedChoice:
-    """The best choice, and as long as one is there a lighter one that differs on one slot, no worse than a limit; then
+    """The best choice, and as long as one is there a lighter one that differs on one slot, no worse than a limit. Then
     the lightest of the other webs, worse by a share at most."""
     selection, beside, free_webs = incumbent.selection, incumbent.beside, incumbent.free_webs
     assert selection is not None  # there is a choice

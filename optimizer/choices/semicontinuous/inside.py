@@ -1,6 +1,6 @@
 """Points that keep everything: with a choice of the webs on which something is fitted, better step by step.
 
-What lies beyond the tangent to the least at a direction is convex and keeps it, and so is a disc about the point where
+The half plane beyond the tangent to the least at a direction is convex and keeps it. So is a disc about the point where
 they touch that stays within the largest. The best point of these is the next one, and the next tangent is at its
 direction: no step is worse than the one before.
 """

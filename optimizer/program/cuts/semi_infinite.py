@@ -83,8 +83,8 @@ class Problem:
 
     goals : in the order of their priority, at least one.
     ceilings, limited : responses with the largest peak allowed, and quantities, by their place, with the largest value.
-    plates : webs whose mass is no multiple of their unbalance; their radius in the limits is that of a first gram, so
-        that all that is proven with it is true of what is heavier.
+    plates : webs whose mass is no multiple of their unbalance. Their radius in the limits is that of a first gram, so
+        that every proof with it holds for heavier plates.
     """
 
     quantities: tuple[Quantity, ...]

@@ -98,8 +98,8 @@ def stage_solutions(
 def _as_discs(statement: Statement, share: Real, demand: Real, least_mass: bool, at_least: Real) -> StageSolutions:
     """Both stages of programs that all suit the interior point for discs.
 
-    Ceilings that are kept without counterweights mostly are kept by the optimum without them too, and that is what is
-    sought then: what is proven without ceilings is proven with them. It is sought again where it is above one.
+    Where the ceilings are kept without counterweights, the optimum without ceilings mostly keeps them too. That is
+    sought first: what is proven without ceilings is proven with them. It is sought again where it is above one.
     """
     if not statement.ceilings.names:
         solved = solve_stages(statement, share, least_mass, _DOUBLE, disc_stages, at_least)

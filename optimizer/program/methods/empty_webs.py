@@ -1,7 +1,7 @@
 """Webs left empty that carry next to nothing, in the answers of all methods.
 
-What rounding cannot take away (:mod:`optimizer.program.methods.rounding`) is sought again without the webs that are to
-be empty: this point is within the limits of all webs, so that the proof for these limits holds for it. The point is
+A web that rounding cannot empty (:mod:`optimizer.program.methods.rounding`) is left out of a second search. Its point
+is within the limits of all webs, so that the proof for these limits holds for it. The point is
 taken where it is an optimum by that proof; a web that every optimum needs keeps its counterweight.
 """
 

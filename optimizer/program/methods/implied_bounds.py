@@ -2,7 +2,7 @@
 
 Where a web has no limit, or one far beyond any need, a bound would pay the rounding of its multipliers times that
 limit. But counterweights matter only by what they add to the terms and ceilings, c = sum_k h_k u_k. The objective, or
-a ceiling, bounds every response of an optimum, so c is bounded; and any c that the webs without a limit can carry they
+a ceiling, bounds every response of an optimum, so c is bounded. Any c that the webs without a limit can carry they
 can carry with little mass. So the lightest optimum is no heavier there (docs/mathematics.md section 5).
 """
 

@@ -1,7 +1,7 @@
 """A finite reach for webs without a limit whose counterweights have a least mass where they are fitted, proven.
 
-Of all points with the same responses take the lightest. Of its webs without a limit some carry nothing or their least;
-those that carry more could carry a little less, so together they are no heavier than the lightest that changes the
+Of all points with the same responses take the lightest. Of its webs without a limit some carry nothing or their least.
+Those that carry more could carry a little less. So together they are no heavier than the lightest that changes the
 responses as they do, whatever the least masses. What they change is bounded by what the responses may come to and what
 the least masses of the others do (docs/mathematics.md section 5).
 """

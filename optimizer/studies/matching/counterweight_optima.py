@@ -1,8 +1,8 @@
 """Counterweights that are optimised with the parts: the value of each assignment with its best counterweights.
 
 An assignment changes the program only in its constants, so multipliers of one bound all others (docs/mathematics.md).
-Of counterweights as a workshop makes them this is the program of any masses, which they are some of; what each
-assignment comes to is then searched, cut or certified by itself.
+For a workshop's counterweights this is the program of any masses, of which theirs are some. Then each assignment is
+searched, cut or certified by itself.
 """
 
 import time

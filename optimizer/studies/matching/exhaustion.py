@@ -1,8 +1,8 @@
 """All assignments that may be better than the best one so far, by halves.
 
-The sums of half the classes lie in a tree, those of the others are looked up in it: of two sums only those matter whose
-vectors nearly cancel (a ball: a sum of lengths is no less than the length of all together) or that are on the near side
-of a plane. What either leaves over is evaluated one by one, so nothing better is missed.
+The sums of half the classes lie in a tree, and those of the others are looked up in it. Of two sums only those matter
+whose vectors nearly cancel, or that are on the near side of a plane. The former lie in a ball: a sum of lengths is no
+less than the length of all together. What either leaves over is evaluated one by one, so nothing better is missed.
 """
 
 from itertools import combinations
