@@ -5,7 +5,7 @@ What a notebook needs stands here by name, docs/python.md shows it; a request co
     from optimizer import optimize
     from schemas import OptimizeRequest
 
-Everything is loaded when it is first asked for.
+Every name is loaded at its first use.
 """
 
 import sys
@@ -56,7 +56,7 @@ _HOMES = {
 
 
 class _Package(ModuleType):
-    """A module's own ``__getattr__`` is asked too late here: a file that is loaded takes the name of its function.
+    """A module's own ``__getattr__`` comes too late here: a file that is loaded takes the name of its function.
 
     ``import_module("optimizer.optimize")`` and ``from optimizer.optimize import ...`` reach the file.
     """

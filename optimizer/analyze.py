@@ -1,4 +1,4 @@
-"""The machine as it stands, or with given counterweights."""
+"""The machine as it stands, or with counterweights of the request."""
 
 import time
 
@@ -15,7 +15,7 @@ from schemas.request.requests import AnalyzeRequest
 
 @or_mapping(AnalyzeRequest)
 def analyze(request: AnalyzeRequest) -> AnalyzeAnswer:
-    """What a machine does without and with the given counterweights.
+    """What a machine does without and with the counterweights of the request.
 
     Raises
     ------

@@ -1,9 +1,9 @@
 """Compile the kernels, once for an installation: ``python -m optimizer.compile_kernels``.
 
-What budgets are spent by is compiled first, and with it what the compiler needs for any kernel. Three processes have
-that in common and do the rest beside one another. The first compiles what follows the turn and moves curves; the
-second the interior point for discs, what proves and settles, what is off, and what sums of options are compared by. The
-third compiles the interior point for any limits, what parts are matched by, and what orders designs and sums forces.
+The budget's loop is compiled first, and with it what the compiler needs for any kernel. Three processes have that in
+common and do the rest beside one another. The first compiles what follows the turn and moves curves. The second
+compiles the interior point for discs, what proves and settles, what is off, and what compares sums of options. The
+third compiles the interior point for any limits, what matches parts, and what orders designs and sums forces.
 """
 
 import gc

@@ -1,6 +1,6 @@
 """What crosses a boundary: frozen pydantic models with the unit of every field in its name.
 
-Requests and answers stand here by name, docs/python.md shows them; each is loaded when it is first asked for.
+Requests and answers stand here by name, docs/python.md shows them; each is loaded at its first use.
 """
 
 from importlib import import_module

@@ -116,10 +116,10 @@ def create_app(settings: Settings | None = None, warm: bool = True, jobs: JobSer
 
     Parameters
     ----------
-    settings : from the environment if not given.
-    warm : start the workers in the background, and be ready when they are; else be ready at once, and start them when
-        they are needed.
-    jobs : as the settings say if not given.
+    settings : by default from the environment.
+    warm : start the workers in the background, and be ready when they are; else be ready at once, and start workers at
+        the first request for one.
+    jobs : by default as the settings have it.
 
     Raises
     ------
@@ -151,8 +151,8 @@ def create_app(settings: Settings | None = None, warm: bool = True, jobs: JobSer
 
     def warm_up() -> None:
         pool.open()
-        # what is loaded by now stays; each full collection of garbage, of which there are some a second where many ask,
-        # would stop everything for a tenth of a second to look through all of it again
+        # what is loaded by now stays. Each full collection of garbage would stop everything for a tenth of a second to
+        # look through all of it again; where many ask there are some a second
         gc.collect()
         gc.freeze()
 

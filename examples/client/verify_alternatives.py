@@ -62,8 +62,8 @@ def every(request: Place, answer: Place, machine: Machine, judged: Judge) -> Cla
         yield CLAIM, entry / "objective", most + rest * real(SAME) - value, most
         cost = costs(request / "machine", entry, there.mass + there.on_shafts_mass)
         yield near(CLAIM, entry / "total_mass_kg", cost["mass"])
-        for counted in ("pieces", "sizes"):
-            yield same(CLAIM, entry / counted, round(float(cost[counted])))
+        for field in ("pieces", "sizes"):
+            yield same(CLAIM, entry / field, round(float(cost[field])))
         yield CLAIM, entry / "minimised", own[minimised] - cost[minimised], ONE
         lowest = entry / "lower_bound"
         if lowest:

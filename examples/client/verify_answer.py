@@ -12,7 +12,7 @@ from verify_machine import ON_FRAME, Machine, Mass, Responses
 from verify_numbers import ABOUT_ONE, COSTS, ONE, SPECK, ZERO, Number, Place, real, total
 from verify_orders import first_order, floor, of_order, orders
 from verify_quality import quality
-from verify_weights import UNSURE, counterweights, listed, shafts, usual_gap
+from verify_weights import UNSURE, active_limits, counterweights, shafts, usual_gap
 
 MASS_GAP = 1e-4  # largest mass_relative_gap of an optimal answer
 
@@ -45,14 +45,14 @@ def before(request: Place, machine: Machine, answer: Place) -> Claims:
     """The machine as it is: its plane, its first two orders, and what is left of it whatever is fitted."""
     if answer / "reference_plane_m":
         yield near("reference_plane", answer / "reference_plane_m", machine.own_plane * ABOUT_ONE)
-    shown = answer / "residual"
-    yield from first_order("before", shown / "before", machine.before)
-    yield from beside("before", shown / "responses", "before", machine.before)
+    residual = answer / "residual"
+    yield from first_order("before", residual / "before", machine.before)
+    yield from beside("before", residual / "responses", "before", machine.before)
     if answer / "floor":
         yield from floor(machine, request / "machine", answer / "floor")
-    if shown / "orders":
+    if residual / "orders":
         own = [(1, machine.before), (2, of_order(request, machine, 2))]
-        yield from orders("orders", shown / "orders" / "before", own)
+        yield from orders("orders", residual / "orders" / "before", own)
 
 
 def beside(claim: str, place: Place, field: str, responses: Responses) -> Claims:
@@ -67,12 +67,12 @@ def beside(claim: str, place: Place, field: str, responses: Responses) -> Claims
 
 def after(request: Place, machine: Machine, answer: Place, there: Fitted) -> Claims:
     """What the counterweights leave."""
-    left, shown = machine.responses(there.first), answer / "residual"
-    yield from first_order("after", shown / "after", left)
-    yield from beside("after", shown / "responses", "after", left)
-    if shown / "orders":
+    left, residual = machine.responses(there.first), answer / "residual"
+    yield from first_order("after", residual / "after", left)
+    yield from beside("after", residual / "responses", "after", left)
+    if residual / "orders":
         twice = of_order(request, machine, 2, there.on_shafts)
-        yield from orders("orders", shown / "orders" / "after", [(1, left), (2, twice)])
+        yield from orders("orders", residual / "orders" / "after", [(1, left), (2, twice)])
     yield near("total_mass", answer / "total_mass_kg", there.mass)
     if answer / "balance_shafts_mass_kg":
         yield near("total_mass", answer / "balance_shafts_mass_kg", there.on_shafts_mass)
@@ -83,7 +83,7 @@ def after(request: Place, machine: Machine, answer: Place, there: Fitted) -> Cla
     if answer / "active_limits":
         rooms = touched(request, machine, left, there.mass)
         if rooms is not None:
-            yield from listed("active_limits", answer / "active_limits", rooms)
+            yield from active_limits("active_limits", answer / "active_limits", rooms)
 
 
 def rates(design: Place, machine: Machine, place: Place, entries: Place, there: Fitted) -> Claims:
@@ -117,8 +117,8 @@ def touched(request: Place, machine: Machine, left: Responses, mass: Number) -> 
                 return None
             if most:
                 co, counter = left[name]
-                turned = counter.conjugate() * (ONE if axis == "_x" else -ONE)
-                peak = abs(co + turned) if axis else abs(co) + abs(counter)
+                reflection = counter.conjugate() * (ONE if axis == "_x" else -ONE)
+                peak = abs(co + reflection) if axis else abs(co) + abs(counter)
                 # a ceiling that the rounding of what cancels comes near to may be listed or not
                 unsure = float(peak) + float(ZERO - peak) > UNSURE * most.double()
                 rooms[f"{name}_ceiling{axis}"] = nan if unsure else _room(float(peak), most.double())
@@ -130,7 +130,7 @@ def _room(size: float, most: float) -> float:
     return 1 - size / most if most > 0 else 0.0
 
 
-def gaps(request: Place, answer: Place, mass: Number, chosen: bool = False) -> Claims:
+def gaps(request: Place, answer: Place, mass: Number, is_choice: bool = False) -> Claims:
     """Gaps are the differences of what is printed, over their yardsticks, and `optimal` says that they are small."""
     proof, optimal = answer / "certificate", (answer / "status").text() == "optimal"
     objective, lowest, place = proof / "objective", proof / "lower_bound", proof / "yardstick"
@@ -148,7 +148,7 @@ def gaps(request: Place, answer: Place, mass: Number, chosen: bool = False) -> C
         if optimal:
             yield "status", answer / "status", wide * size + noise - gap, size
         rest = proof / "objective_without_counterweights"
-        if rest and rest.double() > 0 and not chosen:
+        if rest and rest.double() > 0 and not is_choice:
             yield near("yardstick", place, rest.number() * ABOUT_ONE)
     elif optimal:
         yield "status", answer / "status", -ONE, ONE

@@ -66,11 +66,11 @@ def rising(claim: str, bracket: Place) -> Claim:
 def where(claim: str, place: Place, loads: Loads, curve: Periodic, peak: Peak) -> Claim:
     """The shaft angle of a peak: the curve has it there."""
     degrees = place.double()
-    there = curve.length(turned(loads, degrees)) if 0 <= degrees <= 360 * loads.turns else 0.0
+    there = curve.length(shaft_angle(loads, degrees)) if 0 <= degrees <= 360 * loads.turns else 0.0
     return within(claim, place, degrees, degrees, there - peak.low * (1 - PEAK) + SAMPLE * curve.size)
 
 
-def turned(loads: Loads, degrees: float) -> float:
+def shaft_angle(loads: Loads, degrees: float) -> float:
     """The angle of the harmonics [rad] at a shaft angle."""
     return radians(degrees) if loads.turn.sense is ONE else -radians(degrees)
 
@@ -100,35 +100,36 @@ def curves(request: Place, machine: Machine, answer: Place, fitted: Optional[Fit
         yield from roll(request, rows, answer / "roll", fitted)
 
 
-def roll(request: Place, loads: Loads, shown: Place, fitted: Optional[Fitted]) -> Claims:
+def roll(request: Place, loads: Loads, figures: Place, fitted: Optional[Fitted]) -> Claims:
     """The moment about the crankshaft, which balance shafts alone change."""
-    angles = yield from sampled("roll", shown / "angle_deg", request, loads.turns)
+    angles = yield from sampled("roll", figures / "angle_deg", request, loads.turns)
     sides = [("before", loads.curve("roll"))]
     if fitted is None:
-        yield "roll", shown / "after", -ONE if shown / "after" else ONE, ONE
+        yield "roll", figures / "after", -ONE if figures / "after" else ONE, ONE
     else:
         sides.append(("after", loads.with_weights("roll", [], fitted.on_shafts)))
     for side, curve in sides:
-        samples = list(shown / side / "moment_Nm")
-        yield "roll", shown / side, ONE if len(samples) == len(angles) else -ONE, ONE
+        samples = list(figures / side / "moment_Nm")
+        yield "roll", figures / side, ONE if len(samples) == len(angles) else -ONE, ONE
         off = SAMPLE * (curve.size + loads.curve("roll").size)
         for degrees, sample in zip(angles, samples):
-            value = curve.at(turned(loads, degrees)).real
+            value = curve.at(shaft_angle(loads, degrees)).real
             yield within("roll", sample, value, value, off)
-        peak = yield from largest("roll", shown / side, curve, "Nm")
-        yield where("roll", shown / side / "peak_angle_deg", loads, curve, peak)
+        peak = yield from largest("roll", figures / side, curve, "Nm")
+        yield where("roll", figures / side / "peak_angle_deg", loads, curve, peak)
 
 
 def main_bearings(request: Place, loads: Loads, answer: Place, fitted: Optional[Fitted]) -> Claims:
     """Without and with counterweights."""
-    shown, seats = answer / "main_bearings", {(item / "name").text(): item for item in request / "machine" / "bearings"}
-    angles = yield from sampled("main_bearings", shown / "angle_deg", request, loads.turns)
+    figures = answer / "main_bearings"
+    seats = {(item / "name").text(): item for item in request / "machine" / "bearings"}
+    angles = yield from sampled("main_bearings", figures / "angle_deg", request, loads.turns)
     shaft = (request / "fidelity" / "shaft").text(default="simple_spans")
-    yield same("main_bearings", shown / "shaft", shaft)
-    rows = list(shown / "bearings")
+    yield same("main_bearings", figures / "shaft", shaft)
+    rows = list(figures / "bearings")
     names = [(item / "name").text() for item in rows]
     if names != [*seats]:
-        yield "main_bearings", shown / "bearings", -ONE, ONE
+        yield "main_bearings", figures / "bearings", -ONE, ONE
         return
     for name, item in zip(names, rows):
         own = seats[name]
@@ -143,12 +144,12 @@ def main_bearings(request: Place, loads: Loads, answer: Place, fitted: Optional[
         if fitted is None:
             yield "main_bearings", item / "after", -ONE if item / "after" else ONE, ONE
             continue
-        by = loads.added(f"bearing:{name}", fitted.turning)
-        moved = circle._replace(middle=circle.middle + by)
+        by = loads.vector(f"bearing:{name}", fitted.turning)
+        circle_after = circle._replace(middle=circle.middle + by)
         # what weights add may cancel what is there
         size += loads.of_weights("force", fitted.turning, [])
-        yield from _load(loads, own, before.moved(by), item / "after", moved, angles, size)
-    yield from _bending(loads, shown / "bending", fitted)
+        yield from _load(loads, own, before.plus(by), item / "after", circle_after, angles, size)
+    yield from _bending(loads, figures / "bending", fitted)
 
 
 def circle_of(curve: Periodic, place: Place, enough: float = 0.0) -> Circle:
@@ -167,7 +168,7 @@ def _load(
     x, y = list(place / "force_x_N"), list(place / "force_y_N")
     yield "main_bearings", place, ONE if len(x) == len(y) == len(angles) else -ONE, ONE
     for degrees, component, other in zip(angles, x, y):
-        angle = turned(loads, degrees)
+        angle = shaft_angle(loads, degrees)
         value = curve.at(angle) * complex(cos(angle), sin(angle))
         yield within("main_bearings", component, value.real, value.real, off)
         yield within("main_bearings", other, value.imag, value.imag, off)
@@ -183,7 +184,7 @@ def _load(
     yield within("main_bearings", place / "floor_N", circle.low * (1 - FLOOR), circle.high, off)
     # around the middle that is printed the curve is no longer than that; of two points that hold a circle, it is theirs
     middle = complex((place / "circle_x_N").double(), (place / "circle_y_N").double())
-    around = peak_of(curve.moved(-middle), place, circle.low)
+    around = peak_of(curve.plus(-middle), place, circle.low)
     for name in ("circle_x_N", "circle_y_N"):
         yield within(
             "main_bearings",
@@ -206,8 +207,8 @@ def _bending(loads: Loads, place: Place, fitted: Optional[Fitted]) -> Claims:
     after = [] if fitted is None else [loads.with_weights(f"bending:{plane!r}", fitted.turning) for plane in planes]
     yield same("main_bearings", Place(len(list(place / "after_Nm")), *(place / "after_Nm").path), len(after))
     # what weights add may cancel what is there
-    added = 0.0 if fitted is None else loads.of_weights("force", fitted.turning, []) * (planes[-1] - planes[0])
-    off = SAMPLE * (loads.size_of("bending") + added)
+    weight_size = 0.0 if fitted is None else loads.of_weights("force", fitted.turning, []) * (planes[-1] - planes[0])
+    off = SAMPLE * (loads.size_of("bending") + weight_size)
     peaks: List[Peak] = []
     for of_planes, samples in ((curves, place / "before_Nm"), (after, place / "after_Nm")):
         peaks = [peak_of(curve, samples) for curve in of_planes] or peaks
@@ -239,7 +240,7 @@ def columns(request: Place, machine: Machine, place: Place, fitted: Fitted) -> C
     """Largest loads and moments in the shaft, nothing off, of which a row of a sweep has no curves."""
     turn = Turn(request, machine, loads=True)
     loads = Loads(request / "machine", machine, turn)
-    added = loads.of_weights("force", fitted.turning, [])
+    weight_size = loads.of_weights("force", fitted.turning, [])
 
     def claim(name: str, responses: Sequence[str], off: float) -> Claims:
         if place / name:
@@ -247,26 +248,26 @@ def columns(request: Place, machine: Machine, place: Place, fitted: Fitted) -> C
             low, high = max(peak.low for peak in peaks), max(peak.high for peak in peaks)
             yield within("main_bearings", place / name, low * (1 - PEAK), high * (1 + PEAK), off)
 
-    every, off = [f"bearing:{name}" for name in turn.bearings], SAMPLE * (loads.size_of("bearing") + added)
+    every, off = [f"bearing:{name}" for name in turn.bearings], SAMPLE * (loads.size_of("bearing") + weight_size)
     for name, response in zip(turn.bearings, every):
         yield from claim(f"bearing_peak_N.{name}", [response], off)
     yield from claim("peak_bearing_load_N", every, off)
-    off = SAMPLE * (loads.size_of("bending") + added * (loads.planes[-1] - loads.planes[0]))
+    off = SAMPLE * (loads.size_of("bending") + weight_size * (loads.planes[-1] - loads.planes[0]))
     yield from claim("peak_bending_Nm", [f"bending:{plane!r}" for plane in loads.planes], off)
 
 
 def all_orders(loads: Loads, answer: Place, fitted: Optional[Fitted]) -> Claims:
     """Peaks of force and moment on the frame."""
-    shown = answer / "residual" / "turn"
+    figures = answer / "residual" / "turn"
     for name, unit in NAMES.items():
-        sides, added = [("before", loads.curve(name))], {"before": 0.0}
+        sides, sizes = [("before", loads.curve(name))], {"before": 0.0}
         if fitted is None:
-            yield "turn", shown / "after", -ONE if shown / "after" else ONE, ONE
+            yield "turn", figures / "after", -ONE if figures / "after" else ONE, ONE
         else:
             sides.append(("after", loads.with_weights(name, fitted.turning, fitted.on_shafts)))
-            added["after"] = loads.of_weights(name, fitted.turning, fitted.on_shafts)
+            sizes["after"] = loads.of_weights(name, fitted.turning, fitted.on_shafts)
         for side, curve in sides:
-            peak = peak_of(curve, shown)
+            peak = peak_of(curve, figures)
             # what weights add may be all that there is, and may cancel
-            off = SAMPLE * (loads.size_of(name) + peak.high + (added[side]))
-            yield within("turn", shown / side / f"{name}_peak_{unit}", peak.low * (1 - 2e-8), peak.high, off)
+            off = SAMPLE * (loads.size_of(name) + peak.high + (sizes[side]))
+            yield within("turn", figures / side / f"{name}_peak_{unit}", peak.low * (1 - 2e-8), peak.high, off)

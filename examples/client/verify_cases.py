@@ -107,7 +107,7 @@ def cases(request: Place, machine: Machine, plane: Place) -> Iterator[Case]:
     if not places:
         yield Case(request, machine, ONE, None)
     for scenario in places:
-        body, moved = request.value, False
+        body, has_shift = request.value, False
         for change in scenario / "changes":
             path = (change / "path").text().split("/")[1:]
             of_shafts = path[1:2] == ["balance_shafts"] and path[-1:][0] not in ("x_m", "y_m")
@@ -115,24 +115,24 @@ def cases(request: Place, machine: Machine, plane: Place) -> Iterator[Case]:
                 # what is chosen for a shaft is told by the machine as it is
                 raise NotCovered(change / "path")
             body = with_value(body, path, (change / "value").value, request)
-            moved |= path[-1] in PLANES
+            has_shift |= path[-1] in PLANES
         changed = Place(body, *request.path)
         budget = changed / "machine" / "max_total_mass_kg"
         # with other planes the moments of a case may be about another one
-        own = Machine(changed / "machine", changed / "objective", Place(None) if moved else plane, budget)
+        own = Machine(changed / "machine", changed / "objective", Place(None) if has_shift else plane, budget)
         yield Case(changed, own, (scenario / "weight").number(1.0, least=0), (scenario / "name").text())
 
 
 def goals(request: Place) -> List[str]:
     """Goals that are met one after the other but for costs; one name for all of them where they are weighed."""
-    named = [(priority / "goal").text() for priority in request / "objective" / "priorities"]
-    return [name for name in named if name not in COSTS] or ["all"]
+    goal_names = [(priority / "goal").text() for priority in request / "objective" / "priorities"]
+    return [name for name in goal_names if name not in COSTS] or ["all"]
 
 
-def goal_of(kind: str, named: Sequence[str]) -> int:
+def goal_of(kind: str, goal_names: Sequence[str]) -> int:
     """Which goal a part of the objective belongs to."""
-    name = named[0] if named == ["all"] else GOALS.get(kind, "external")
-    return named.index(name) if name in named else 0
+    name = goal_names[0] if goal_names == ["all"] else GOALS.get(kind, "external")
+    return goal_names.index(name) if name in goal_names else 0
 
 
 def nominal(machine: Machine, goal: Place, rows: Dict[str, Dict[str, Number]], responses: Responses) -> Number:

@@ -26,10 +26,10 @@ class Circle(NamedTuple):
 
 def smallest(curve: Periodic, enough: float = 0.0) -> Optional[Circle]:
     """Around a curve; of no interest where it is no larger than ``enough``. None where that takes too long."""
-    size = curve.moved(-curve.mean).size
+    size = curve.plus(-curve.mean).size
     middle, low, support = curve.mean, 0.0, curve.sides(0.0)[:1]
     for _ in range(ROUNDS):
-        peak = curve.moved(-middle).peak(enough)
+        peak = curve.plus(-middle).peak(enough)
         if peak is None:
             return None
         if peak.high <= max(low * (1 + WIDE), enough) + 1e-12 * size:

@@ -53,7 +53,7 @@ def contact(claim: str, turn: Turn, place: Place, loads: List[List[float]]) -> C
     else:
         yield claim, entry / "load_error_bound_N", real(bound), real(largest)
     # |Q - Q*| is at most sqrt(2 k gap)
-    stiffest = max([*pins.stiffness, *([] if pins.held else [pins.drive])])
+    stiffest = max([*pins.stiffness, *([] if pins.is_rigid else [pins.drive])])
     yield within(claim, entry / "gap_J", 0.0, bound**2 / (2 * stiffest), EXACT * bound**2 / stiffest)
 
 
@@ -67,14 +67,14 @@ def _bears(claim: str, place: Place, samples: Sequence[float]) -> Claims:
 
 def _shift(pins: Pins, samples: Sequence[float], angle: float, rotation: float, bound: float) -> Tuple[float, float]:
     """How much room there is for one shift that all loads have, and the size of what it is made of [m]."""
-    low, high, whole = (0.0, 0.0, 0.0) if pins.held else (-inf, inf, 0.0)
+    low, high, whole = (0.0, 0.0, 0.0) if pins.is_rigid else (-inf, inf, 0.0)
     members = [(pins.stiffness[k], pins.clearances[k], pins.errors[k], pins.lever(k, angle)) for k in range(pins.count)]
-    members += [] if pins.held or not pins.drive else [(pins.drive, 0.0, 0.0, 0.0)]
+    members += [] if pins.is_rigid or not pins.drive else [(pins.drive, 0.0, 0.0, 0.0)]
     for (stiffness, clearance, error, lever), load in zip(members, samples):
-        strained, turned = load / stiffness, lever * rotation
-        size = abs(strained) + clearance + abs(error) + abs(turned)
+        strain, twist = load / stiffness, lever * rotation
+        size = abs(strain) + clearance + abs(error) + abs(twist)
         off = STRAINED * size + bound / stiffness
-        start = error - turned + strained
+        start = error - twist + strain
         ends = (start + clearance, start + clearance) if load > 0 else (start - clearance, start - clearance)
         ends = ends if load else (start - clearance, start + clearance)
         low, high, whole = max(low, ends[0] - off), min(high, ends[1] + off), max(whole, size)

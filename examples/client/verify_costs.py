@@ -9,7 +9,7 @@ from verify_claims import Claims
 from verify_cuts import Part, Term
 from verify_machine import Machine
 from verify_numbers import ONE, NotCovered, Number, Place
-from verify_prices import Priced, listed_prices, stated_limits
+from verify_prices import Priced, price_entries, stated_limits
 from verify_program import CEILINGS
 
 #: units of the ceilings on loads of the shaft
@@ -45,7 +45,7 @@ def costs(
     # what cancels in the pulls
     sizes = [sum(abs(v.factors[k].middle()) * abs(v.y.middle()) for v in terms) for k in range(len(pulls))]
     dust = 1e-11 * max((size * web.radius.middle().real for size, web in zip(sizes, machine.webs)), default=0.0)
-    yield from listed_prices(place, stated, weight, unit, (proof / "gap").double(), rest, dust)
+    yield from price_entries(place, stated, weight, unit, (proof / "gap").double(), rest, dust)
 
 
 def _measure(part: Part, goal: Place) -> Tuple[float, str]:

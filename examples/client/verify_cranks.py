@@ -25,13 +25,13 @@ def shares(design: Place) -> Dict[str, Dict[int, Number]]:
     far = max((abs(at - place) for _, at, _ in webs for place in places), default=0.0)
     extent = max(map(abs, places), default=0.0) + far
     throws: Dict[str, Dict[int, Number]] = {}
-    for name, at, named in webs if places else ():
+    for name, at, throw_number in webs if places else ():
         away = [abs(at - place) for place in places]
         near = [t for t, distance in enumerate(away) if distance <= min(away) + TIE * extent]
-        if named:
-            near = [named.whole(least=0)]
+        if throw_number:
+            near = [throw_number.whole(least=0)]
             if near[0] >= len(places):
-                raise NotCovered(named)
+                raise NotCovered(throw_number)
         throws[name] = {t: real(1 / len(near)) for t in near}
     return throws
 

@@ -38,10 +38,10 @@ class Turn:
         self.spans = Spans([place for place, _ in bearings], continuous) if len(bearings) > 1 and apart else None
         self._factors: Dict[Tuple[str, int], Number] = {}
 
-    def seen(self, response: str, degrees: float) -> Number:
+    def on_shaft(self, response: str, degrees: float) -> Number:
         """A response without counterweights but those that are fixed, at a shaft angle, as the shaft sees it."""
         machine, on_shaft = self.machine, response.partition(":")[0] in ("bearing", "bending")
-        turn = self.turned(degrees)
+        turn = self.unit(degrees)
         value = ZERO
         pushes = self._pushes(degrees) if on_shaft or response == "roll" else []
         for k, row in enumerate(self.rows):
@@ -50,9 +50,9 @@ class Turn:
             upright = ONE - row.ratio * row.ratio * sine * sine
             if upright.low <= 0:
                 raise NotCovered(row.place)
-            leaning, both = root(upright), row.ratio * cosine * sine
+            leaning, slope = root(upright), row.ratio * cosine * sine
             outward = cosine + over(row.ratio * (cosine * cosine - sine * sine), leaning, self.place)
-            outward = outward + over(row.ratio * both * both, upright * leaning, self.place)
+            outward = outward + over(row.ratio * slope * slope, upright * leaning, self.place)
             tangent = over(row.ratio * sine, leaning, self.place)
             pull = row.product * machine.wide * outward
             pull = pull + pushes[k] if pushes else pull
@@ -82,7 +82,7 @@ class Turn:
         number = Number(real(value - off).low, real(value + off).high)
         return over(number, self.machine.square, self.place)
 
-    def turned(self, degrees: float) -> Number:
+    def unit(self, degrees: float) -> Number:
         """A unit vector that turns with the shaft."""
         turn = direction(degrees) + self.machine.blur
         return turn if self.sense is ONE else turn.conjugate()

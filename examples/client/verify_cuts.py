@@ -47,9 +47,9 @@ class Term(NamedTuple):
 class Part:
     """What one machine of a program answers: the vectors of its cuts, and what its ceilings limit."""
 
-    def __init__(self, case: Case, weights: Dict[str, Number], named: Sequence[str]) -> None:
+    def __init__(self, case: Case, weights: Dict[str, Number], goal_names: Sequence[str]) -> None:
         request, machine = case.request, case.machine
-        self.machine, self.goal, self.case, self.named = machine, request / "objective", case, named
+        self.machine, self.goal, self.case, self.goal_names = machine, request / "objective", case, goal_names
         goal = self.goal
         self.all = (goal / "orders").text("first", "all", default="first") == "all"
         self.apart = (goal / "combine").text("sum", "max", default="sum") == "sum"
@@ -141,7 +141,7 @@ class Part:
             return self._mean(response, row, y)._replace(share=(cut / "share").number(0.0, least=0))
         weight, degrees = self.weights[kind] * ABOUT_ONE, (cut / "angle_deg").double()
         weight = over(weight, self.area[name], cut) if kind == "bearing" and self.specific else weight
-        start, factors = self.turn.seen(response, degrees) * weight, self.at(response, degrees, weight)
+        start, factors = self.turn.on_shaft(response, degrees) * weight, self.at(response, degrees, weight)
         return Term(row, self._group(kind), start, factors, y, ZERO, kind == "roll")
 
     def _mean(self, response: str, row: str, y: Number) -> Term:
@@ -151,7 +151,7 @@ class Part:
         around = Number(real(-off).low, real(off).high)
         mean = curve.mean
         start = real(mean.real) + around + J * (real(mean.imag) + around) + self._fixed(response)
-        still = real(curve.moved(-mean).rms) + around
+        still = real(curve.plus(-mean).rms) + around
         factors = [*self._factors(response, weight), *(ZERO for _ in self.geared)]
         return Term(row, self._group("bearing"), start * weight, factors, y, ZERO, False, response, still * weight)
 
@@ -172,13 +172,13 @@ class Part:
 
     def at(self, response: str, degrees: float, weight: Number) -> List[Number]:
         """Factors of a response at a shaft angle."""
-        unit, square = self.turn.turned(degrees), self.machine.square
+        unit, square = self.turn.unit(degrees), self.machine.square
         if response == "roll":
             on_shafts = [item.roll(unit) * square for item in self.geared]
         else:
             # those on balance shafts do not load the crankshaft
             moves = response in ON_FRAME
-            on_shafts = [item.seen(unit) * self._arm(response, item) if moves else ZERO for item in self.geared]
+            on_shafts = [item.on_shaft(unit) * self._arm(response, item) if moves else ZERO for item in self.geared]
         return [*self._factors(response, weight), *(item * weight for item in on_shafts)]
 
     def _arm(self, response: str, shaft_web: Geared) -> Number:
@@ -223,7 +223,7 @@ class Part:
         return off.of([*own, *on_shafts], sizes)
 
     def _group(self, kind: str) -> Group:
-        goal = goal_of(kind, self.named)
+        goal = goal_of(kind, self.goal_names)
         return self.case.name, goal, kind if self.apart else "all"
 
     def _factors(self, response: str, factor: Number) -> List[Number]:
@@ -246,10 +246,10 @@ class Part:
         degrees = (cut / "angle_deg").double()
         if along and self.all and response in CEILINGS and goal / CEILINGS[response]:
             # the real part of what is turned to the frame and to the axis
-            back = self.turn.turned(degrees) * (ONE if name == "x" else -J)
+            back = self.turn.unit(degrees) * (ONE if name == "x" else -J)
             factors = [factor * back for factor in self.at(kind, degrees, ONE)]
-            return self.turn.seen(kind, degrees) * back, factors, (goal / CEILINGS[response]).number(least=0)
-        start = self.turn.seen(response, degrees)
+            return self.turn.on_shaft(kind, degrees) * back, factors, (goal / CEILINGS[response]).number(least=0)
+        start = self.turn.on_shaft(response, degrees)
         field = CEILINGS.get(kind) or {"bearing": "bearing_ceiling_N"}.get(kind, "")
         caps = [limit.number(least=0) for limit in [goal / (field or "bending_ceiling_Nm")] if limit]
         if kind == "bearing" and goal / "specific_load_ceiling_Pa":

@@ -11,7 +11,7 @@ from verify_gas import TURN, Cycle, force
 from verify_harmonics import Peak
 from verify_numbers import ONE, NotCovered, Place
 from verify_pistons import Instant, Piston, Pistons
-from verify_pressed import ALL, Acting, Pressed
+from verify_pressed import ALL, Acting, PressureCurve
 
 TURNED = 1e-9  # degrees by which a crank angle may be off
 OPENS = 1e-7  # degrees by which an angle at which a valve opens may be off
@@ -19,7 +19,7 @@ RUBBED = 1e-9  # of the friction: by which it may be off
 WORK = 1e-9  # of the largest force over the stroke: by which a work may be off
 
 
-class Shown(NamedTuple):
+class Output(NamedTuple):
     """Rows of an output with the angles of its samples [rad]."""
 
     claim: str
@@ -27,7 +27,7 @@ class Shown(NamedTuple):
     rows: List[Tuple[Piston, int, Place]]
 
 
-def shown(claim: str, request: Place, pistons: Pistons, place: Place) -> Claims:
+def output(claim: str, request: Place, pistons: Pistons, place: Place) -> Claims:
     """Angles and labels of the rows; returns them."""
     angles = yield from sampled(claim, place / "angle_deg", request, pistons.turns)
     rows = list(place / "rows")
@@ -38,8 +38,8 @@ def shown(claim: str, request: Place, pistons: Pistons, place: Place) -> Claims:
         yield same(claim, item / "throw", throw)
         yield same(claim, item / "row", number)
         yield same(claim, item / "name", (row / "name").value)
-    turned = [radians(item) for item in angles]
-    return Shown(claim, turned, [(item, k, place) for k, (item, place) in enumerate(zip(pistons.rows, rows))])
+    shaft_angles = [radians(item) for item in angles]
+    return Output(claim, shaft_angles, [(item, k, place) for k, (item, place) in enumerate(zip(pistons.rows, rows))])
 
 
 def series(claim: str, place: Place, values: Sequence[float], off: float) -> Claims:
@@ -55,12 +55,12 @@ def of_row(pistons: Pistons, angles: Iterable[float], k: int) -> List[Instant]:
     return [pistons.at(k, angle) for angle in angles]
 
 
-def alone(pistons: Pistons, k: int, reading: str, acting: Acting = ALL) -> Pressed:
+def alone(pistons: Pistons, k: int, reading: str, acting: Acting = ALL) -> PressureCurve:
     """A force of one row."""
-    return Pressed(pistons, reading, [(k, 1.0)], {}, acting)
+    return PressureCurve(pistons, reading, [(k, 1.0)], {}, acting)
 
 
-def enclosed(curve: Pressed, place: Place, sign: int = 0) -> Peak:
+def enclosed(curve: PressureCurve, place: Place, sign: int = 0) -> Peak:
     """The largest value of a curve, where it can be enclosed."""
     peak = curve.peak(sign=sign)
     if peak is None:
@@ -70,7 +70,7 @@ def enclosed(curve: Pressed, place: Place, sign: int = 0) -> Peak:
 
 def kinematics(request: Place, pistons: Pistons, place: Place) -> Claims:
     """Motion of every row."""
-    motion = yield from shown("kinematics", request, pistons, place)
+    motion = yield from output("kinematics", request, pistons, place)
     omega = sqrt(pistons.square)
     for row, k, entry in motion.rows:
         there = of_row(pistons, motion.angles, k)
@@ -95,7 +95,7 @@ def _cylinders(row: Place) -> List[Optional[str]]:
 
 def gas(request: Place, pistons: Pistons, place: Place) -> Claims:
     """Pressures, and what they come to."""
-    table = yield from shown("gas", request, pistons, place)
+    table = yield from output("gas", request, pistons, place)
     omega = sqrt(pistons.square)
     power = 0.0
     for row, k, entry in table.rows:
@@ -133,7 +133,7 @@ def gas(request: Place, pistons: Pistons, place: Place) -> Claims:
 def piston_force(request: Place, pistons: Pistons, place: Place) -> Claims:
     """Gas, inertia and friction on every piston, and what they come to at most either way."""
     claim = "piston_force"
-    table = yield from shown(claim, request, pistons, place)
+    table = yield from output(claim, request, pistons, place)
     for row, k, entry in table.rows:
         there, off = of_row(pistons, table.angles, k), SAMPLE * (row.most + row.moving[0] + row.friction)
         yield from series(claim, entry / "gas_N", [state.gas for state in there], off)

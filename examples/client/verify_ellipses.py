@@ -72,15 +72,15 @@ def acting(claim: str, place: Place, pair: Pair, motion: Motion, speed: Number) 
 def motions(pair: Pair, noise: Number) -> Set[str]:
     """All that doubles may call it."""
     co, counter = pair.sizes
-    nothing, some = either(pair.peak, noise)
+    nothing, above = either(pair.peak, noise)
     names = {"none"} if nothing else set()
     edges = (("with_shaft", counter, co), ("against_shaft", co, counter), ("fixed", pair.minor, pair.peak))
-    for name, small, large in edges if some else ():
-        yes, some = either(small, large * real(ACTS))
+    for name, small, large in edges if above else ():
+        yes, above = either(small, large * real(ACTS))
         names |= {name} if yes else set()
-        if not some:
+        if not above:
             break
-    return names | {"ellipse"} if some else names
+    return names | {"ellipse"} if above else names
 
 
 def _pointed(claim: str, place: Place, pair: Pair, way: str) -> Claim:

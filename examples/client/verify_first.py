@@ -94,25 +94,25 @@ def optimum(request: Place, answer: Place, machine: Machine, fitted: Fitted) -> 
     after = machine.responses(fitted.turning)
     value, rest = (largest(ZERO, *statement.values(responses).values()) for responses in (after, machine.laden))
     objective, lowest, implied = proof / "objective", proof / "lower_bound", proof / "implied_max_mass_kg"
-    chosen = yield from searched(design, answer, proof)
-    lowest = proof / "continuous_lower_bound" if chosen else lowest
+    is_choice = yield from searched(design, answer, proof)
+    lowest = proof / "continuous_lower_bound" if is_choice else lowest
     yield near("objective", objective, value)
     yield near("before", proof / "objective_without_counterweights", rest)
     # nothing that exceeds no ceiling by more is better; any masses beside a choice keep them
-    slack = {} if chosen else over
+    slack = {} if is_choice else over
     multipliers, priced = proof / "multipliers", partial(priced_at, dict.fromkeys(rows, lowest.number(0.0)))
     yield from proven("lower_bound", lowest, statement, multipliers / "objective", implied, slack, priced)
     if proof / "yardstick":
         yield yardstick(statement, proof / "yardstick", rest, implied)
     asks_least = (goal / "least_mass").read((bool,), "true or false", True)
-    if asks_least and not chosen:
+    if asks_least and not is_choice:
         size = (proof / "yardstick").number(0.0)
         most = dict.fromkeys(rows, (proof / "mass_objective_limit").number(0.0))
         yield from lightest(statement, proof, multipliers, most, after, fitted.mass)
         yield from light(statement, proof, dict.fromkeys(rows, size), fitted.mass)
     yield from sensitivity(statement, fitted.turning, answer / "sensitivity")
     yield from alternatives(request, answer, machine, statement)
-    yield from prices(statement, request, answer, fitted, chosen)
+    yield from prices(statement, request, answer, fitted, is_choice)
 
 
 def searched(design: Place, answer: Place, proof: Place) -> Claims:
@@ -127,10 +127,10 @@ def searched(design: Place, answer: Place, proof: Place) -> Claims:
     # of rows of a sweep the method alone tells it, where it is a column
     least = any((web / "min_fitted_mass_kg").value for shaft, _ in shafts for web in shaft / "webs")
     by_method = (proof / "method").value in SEARCHES or (least and not proof / "method")
-    chosen = bool(stock or proof / "continuous_lower_bound" or by_method)
-    if chosen:
+    is_choice = bool(stock or proof / "continuous_lower_bound" or by_method)
+    if is_choice:
         yield "lower_bound", proof / "lower_bound", None, ONE
-    return chosen
+    return is_choice
 
 
 def lightest(

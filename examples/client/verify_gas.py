@@ -123,10 +123,10 @@ class Cycle(NamedTuple):
         """Own angles at which suction and discharge open [rad]."""
         grown = log1p((self.high - self.low) / self.low)
         opens = self.clear * expm1(grown / self.expansion)
-        taken = -(self.stroke + self.clear) * expm1(-grown / self.compression)
+        travel = -(self.stroke + self.clear) * expm1(-grown / self.compression)
         # of the former how far it is from the smallest volume, of the latter how far from the largest
         suction = _angle(ratio, opens, self.stroke - opens, self.stroke, self.head)
-        discharge = _angle(ratio, self.stroke - taken, taken, self.stroke, self.head)
+        discharge = _angle(ratio, self.stroke - travel, travel, self.stroke, self.head)
         return (suction, TURN - discharge) if self.head else (TURN - suction, discharge)
 
 

@@ -16,14 +16,14 @@ from verify_machine import NAMES, ON_FRAME, Machine
 from verify_nominal import NO_SCATTER, fixed_alone, nominal_optimum, nominal_part
 from verify_numbers import ABOUT_ONE, ONE, ZERO, Number, Place, largest, real
 from verify_values import Value, most, off_sizes
-from verify_weights import listed
+from verify_weights import active_limits
 
 
 class Program(NamedTuple):
     """What is asked: machines, goals in their order, what counterweights may be off by, rows of the first order."""
 
     parts: List[Part]
-    named: List[str]
+    goal_names: List[str]
     off: Scatter
     machine: Machine
     rows: Dict[str, Dict[str, Number]]
@@ -39,16 +39,16 @@ def values(request: Place, answer: Place, program: Program, fitted: Fitted) -> C
     if program.machine.budget is not None:
         most_there = float(program.machine.budget)
         rooms["max_total_mass"] = 1 - float(fitted.mass) / most_there if most_there > 0 else 0.0
-    yield from listed("active_limits", answer / "active_limits", rooms)
+    yield from active_limits("active_limits", answer / "active_limits", rooms)
     if answer / "bearing_columns":
         yield from columns(request, program.machine, answer / "bearing_columns", fitted)
     if list(request / "objective" / "priorities"):
-        yield from levels(request, answer, program.named, there, rest, fitted)
+        yield from levels(request, answer, program.goal_names, there, rest, fitted)
     first = program.parts[0]
-    if not first.over_turn and len(program.named) == 1:
+    if not first.over_turn and len(program.goal_names) == 1:
         yield from _exactly(request, answer, program, fitted)
         return
-    last = program.named[-1]
+    last = program.goal_names[-1]
     value, nothing = (most([case.goal(last) for case in side]) for side in (there, rest))
     off = WIDE * nothing.high
     yield within("objective", proof / "objective", value.low, value.high, off)
@@ -75,7 +75,7 @@ def cheaper(request: Place, answer: Place, program: Program, best: Fitted) -> Cl
         if not program.parts[0].over_turn:
             value = _exact(program, there)
             return Worth(value, near(CLAIM, place, value * ABOUT_ONE))
-        between, nothing = (most([case.goal(program.named[-1]) for case in side]) for side in (cases, rest))
+        between, nothing = (most([case.goal(program.goal_names[-1]) for case in side]) for side in (cases, rest))
         off = WIDE * nothing.high
         return Worth(real(between.low - off), within(CLAIM, place, between.low, between.high, off))
 

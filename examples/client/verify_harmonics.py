@@ -14,7 +14,7 @@ All in doubles, to 1e-9 of the sum of the |c_k|.
 
 from __future__ import annotations
 
-from cmath import exp as turned
+import cmath
 from functools import lru_cache
 from math import acosh, ceil, cos, cosh, exp, log, log2, pi, sin, sqrt
 from typing import Dict, List, NamedTuple, Optional, Sequence, Tuple
@@ -44,8 +44,8 @@ class Curve:
         if scalar:
             # Re R = (R + conj R) / 2
             orders = {*harmonics, *(-k for k in harmonics)}
-            both = {k: (harmonics.get(k, 0j) + harmonics.get(-k, 0j).conjugate()) / 2 for k in orders}
-            self.harmonics = both
+            means = {k: (harmonics.get(k, 0j) + harmonics.get(-k, 0j).conjugate()) / 2 for k in orders}
+            self.harmonics = means
         orders_there = sorted(self.harmonics)
         self.first = orders_there[0] if orders_there else 0
         last = orders_there[-1] if orders_there else 0
@@ -54,7 +54,7 @@ class Curve:
 
     def at(self, angle: float) -> complex:
         """The vector at an angle [rad]."""
-        unit, value = turned(1j * angle), 0j
+        unit, value = cmath.exp(1j * angle), 0j
         for phasor in self.descending:
             value = value * unit + phasor
         return value * unit**self.first
@@ -85,7 +85,7 @@ class Curve:
         """Over a revolution."""
         return self.harmonics.get(0, 0j)
 
-    def moved(self, by: complex, order: int = 0) -> Curve:
+    def plus(self, by: complex, order: int = 0) -> Curve:
         """The curve with a vector that turns ``order`` times."""
         return Curve({**self.harmonics, order: self.harmonics.get(order, 0j) + by}, self.scalar)
 
@@ -174,5 +174,5 @@ def transform(values: Sequence[complex]) -> List[complex]:
     if count == 1:
         return list(values)
     even, odd = transform(values[::2]), transform(values[1::2])
-    odd = [turned(-2j * pi * k / count) * value for k, value in enumerate(odd)]
+    odd = [cmath.exp(-2j * pi * k / count) * value for k, value in enumerate(odd)]
     return [a + b for a, b in zip(even, odd)] + [a - b for a, b in zip(even, odd)]

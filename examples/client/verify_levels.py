@@ -22,18 +22,18 @@ ALLOWANCE = 1e-6
 
 
 def levels(
-    request: Place, answer: Place, named: Sequence[str], there: Sequence[Value], rest: Sequence[Value], fitted: Fitted
+    request: Place, answer: Place, own: Sequence[str], there: Sequence[Value], rest: Sequence[Value], fitted: Fitted
 ) -> Claims:
     """Every goal that an answer lists. ``rest``: without counterweights."""
     proof, order = answer / "certificate", list(request / "objective" / "priorities")
-    listed, names = list(proof / "goals"), [(item / "goal").text() for item in order]
-    labels = [(item / "goal").text() for item in listed]
+    entries, names = list(proof / "goals"), [(item / "goal").text() for item in order]
+    labels = [(item / "goal").text() for item in entries]
     places = [names.index(item) for item in labels if item in names]
     # a cost of which no choice was found is left out
     must = [item for item in names[: max(n for n, item in enumerate(names) if item not in COSTS)] if item not in COSTS]
     right = len(places) == len(labels) and places == sorted({*places}) and {*must} <= {*labels}
     yield "goals", proof / "goals", ONE if right else -ONE, ONE
-    for place, name in zip(listed, labels) if right else ():
+    for place, name in zip(entries, labels) if right else ():
         yield same("goals", place / "goal", name)
         last, allowance = name == labels[-1], (order[names.index(name)] / "allowance").double(0.0, least=0)
         if name in COSTS:
@@ -43,7 +43,7 @@ def levels(
         yield from _goal(place, value, nothing, allowance)
         if (answer / "status").value == "optimal" and not last and not _searched(proof):
             yield from _closed(place, nothing, allowance)
-        if name == named[-1]:
+        if name == own[-1]:
             yield from _bound(place, proof / "lower_bound", proof)
 
 
@@ -85,8 +85,8 @@ def _bound(place: Place, own: Place, proof: Place) -> Claims:
 
 def _cost(name: str, place: Place, request: Place, answer: Place, fitted: Fitted, last: bool) -> Claims:
     """What castings cost: their mass, with those fixed, their number or their sizes, without."""
-    proof, chosen = answer / "certificate", [item for _, item in castings(request / "machine", answer)]
-    masses = sorted((item / "mass_kg").double() for item in chosen if (item / "mass_kg").double() > 0)
+    proof, items = answer / "certificate", [item for _, item in castings(request / "machine", answer)]
+    masses = sorted((item / "mass_kg").double() for item in items if (item / "mass_kg").double() > 0)
     comes_to = {
         "mass": float(fitted.mass + fitted.on_shafts_mass),
         "pieces": float(len(masses)),

@@ -16,14 +16,14 @@ from verify_harmonics import Curve, Harmonics, rod, total
 from verify_machine import ON_FRAME, Machine, Mass
 from verify_numbers import NotCovered, Number, Place
 from verify_pistons import Row
-from verify_pressed import Pressed
+from verify_pressed import PressureCurve
 
 #: planes of the shaft times harmonics that are looked at
 MOST = 3_000
 #: planes of the shaft times rows likewise, where gas or friction acts
 PRESSED = 200
 
-Periodic = Union[Curve, Pressed]
+Periodic = Union[Curve, PressureCurve]
 
 
 class Piston(NamedTuple):
@@ -85,22 +85,22 @@ class Loads:
         pistons, on_frame = self.turn.pistons, response in ON_FRAME
         if pistons is not None and response == "roll":
             # what machine and driver take up all the time does not shake
-            around = Pressed(
+            around = PressureCurve(
                 pistons, "tangential", [(k, pistons.sense * item.radius) for k, item in enumerate(pistons.rows)]
             )
-            return around.moved(-around.mean)
+            return around.plus(-around.mean)
         if pistons is not None and not on_frame:
             if response.startswith("bending") and len(self.planes) * len(pistons.rows) > PRESSED:
                 raise NotCovered(self.turn.place)
             weights = [(k, self.factor(response, row.position) * row.axis) for k, row in enumerate(pistons.rows)]
-            return Pressed(pistons, "shaft", weights, {0: self.added(response, self.turn.turning)})
+            return PressureCurve(pistons, "shaft", weights, {0: self.vector(response, self.turn.turning)})
         if response == "roll":
             rolling = total([(1.0, item.roll) for item in self.pistons]).harmonics
             return Curve({k: phasor for k, phasor in rolling.items() if k}, scalar=True)
         rows = [(self.factor(response, item.position), item.frame if on_frame else item.shaft) for item in self.pistons]
-        return total([*rows, (1.0, {0: self.added(response, self.turn.turning)})])
+        return total([*rows, (1.0, {0: self.vector(response, self.turn.turning)})])
 
-    def added(self, response: str, weights: Sequence[Mass]) -> complex:
+    def vector(self, response: str, weights: Sequence[Mass]) -> complex:
         """What weights on the crankshaft add, all of order 0."""
         if response == "roll":
             return 0j
@@ -111,13 +111,13 @@ class Loads:
         self, response: str, weights: Sequence[Mass], on_shafts: Sequence[Tuple[int, Mass]] = ()
     ) -> Periodic:
         """The curve with weights, those on balance shafts by the sizes of their speed ratios."""
-        curve = self.curve(response).moved(self.added(response, weights))
+        curve = self.curve(response).plus(self.vector(response, weights))
         for lever, (ratio, mass) in zip(self.levers, on_shafts):
             size = ratio**2 * self.square * mass.product.middle().real
-            if isinstance(curve, Pressed):
+            if isinstance(curve, PressureCurve):
                 lever = -1j * lever.conjugate() * size
                 for sense, vector in ((1, mass.co), (-1, mass.counter)) if response == "roll" else ():
-                    curve = curve.moved(lever * vector.middle(), sense * ratio)
+                    curve = curve.plus(lever * vector.middle(), sense * ratio)
             elif response == "roll":
                 around = Curve({}, scalar=True)
                 for sense, vector in ((1, mass.co), (-1, mass.counter)):
@@ -126,7 +126,7 @@ class Loads:
                 curve = Curve(total([(1.0, curve.harmonics), (1.0, around.harmonics)]).harmonics)
             elif response in ON_FRAME:
                 size *= self.factor(response, mass.position)
-                curve = curve.moved(size * mass.co.middle(), ratio - 1).moved(size * mass.counter.middle(), -ratio - 1)
+                curve = curve.plus(size * mass.co.middle(), ratio - 1).plus(size * mass.counter.middle(), -ratio - 1)
         return curve
 
     def of_weights(self, response: str, weights: Sequence[Mass], on_shafts: Sequence[Tuple[int, Mass]]) -> float:

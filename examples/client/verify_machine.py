@@ -198,10 +198,10 @@ def _groups(place: Place) -> list[list[tuple[int, float, bool]]]:
             web = list(place / "webs")[k]
             at = (web / "position_m").double()
             near = min(range(len(throws)), key=lambda t: abs(throws[t][0] - at))
-            named = (web / "throw").whole(float(near))
-            if named >= len(throws):
+            throw_number = (web / "throw").whole(float(near))
+            if throw_number >= len(throws):
                 raise NotCovered(web / "throw")
-            groups[-1][n] = k, throws[named][1], mirrored
+            groups[-1][n] = k, throws[throw_number][1], mirrored
     return groups
 
 

@@ -21,7 +21,7 @@ from verify_program import CEILINGS, Statement
 from verify_shafts import geared
 from verify_single import single
 from verify_turn import unreachable
-from verify_weights import counterweights, listed, shafts, usual_gap
+from verify_weights import active_limits, counterweights, shafts, usual_gap
 from verify_worst_front import of_both, worst_curve
 
 STATUSES = ("optimal", "inaccurate", "infeasible")
@@ -200,7 +200,7 @@ def point(statement: Statement, request: Place, scale: Place, answer: Place) -> 
 def _active(request: Place, machine: Machine, place: Place, left: Responses, mass: Number) -> Claims:
     rooms = touched(request, machine, left, mass)
     if rooms is not None:
-        yield from listed("active_limits", place / "active_limits", rooms)
+        yield from active_limits("active_limits", place / "active_limits", rooms)
 
 
 def sweep(request: Place, rows: Place) -> Iterator[Claim]:
@@ -219,12 +219,12 @@ def sweep(request: Place, rows: Place) -> Iterator[Claim]:
 
 def _design(request: Place, paths: Sequence[str], row: Place) -> Claims:
     """A row as the answer to the base with its values."""
-    body, chosen = (request / "base").value, bool(request / "columns")
+    body, has_selection = (request / "base").value, bool(request / "columns")
     for path in paths:
-        if chosen and path not in row.value:
+        if has_selection and path not in row.value:
             raise NotCovered(row / path)
         body = with_value(body, path.split("/")[1:], (row / path).value, request / "axes")
-    yield from covered(_row(Place(body, "request", "base"), row, chosen))
+    yield from covered(_row(Place(body, "request", "base"), row, has_selection))
     yield from (_on_axis(axis, row) for axis in request / "axes")
     if (request / "design").value == ORDERED:
         yield from _in_order([row / path for path in paths], request / "angles_deg")
@@ -254,16 +254,16 @@ def _on_axis(axis: Place, row: Place) -> Claim:
     value, numbers = Place(place.value, "request", *where).double(), [item for item in allowed if item is not None]
     slack = UNSURE * max(map(abs, numbers), default=0.0)
     if axis / "values":
-        held = any(abs(value - item) <= slack for item in numbers)
+        on_axis = any(abs(value - item) <= slack for item in numbers)
     else:
-        held = min(numbers) - slack <= value <= max(numbers) + slack
-    return "axis", place, ONE if held else -ONE, ONE
+        on_axis = min(numbers) - slack <= value <= max(numbers) + slack
+    return "axis", place, ONE if on_axis else -ONE, ONE
 
 
-def _row(request: Place, row: Place, chosen: bool) -> Claims:
+def _row(request: Place, row: Place, has_selection: bool) -> Claims:
     """A row in the form of the answer to one request; what it does not hold stays out.
 
-    ``chosen``: whether it has some of its columns alone.
+    ``has_selection``: whether it has some of its columns alone.
     """
     try:
         proof = json.loads((row / "multipliers").text(default="{}"))
@@ -296,7 +296,7 @@ def _row(request: Place, row: Place, chosen: bool) -> Claims:
         "infeasibility": {**proofs, "conflict": limits} if status == "infeasible" else None,
         **_worst(row, status),
     }
-    yield from _by_columns(single(request, Place(answer, *row.path), whole=False), row, answer, chosen)
+    yield from _by_columns(single(request, Place(answer, *row.path), whole=False), row, answer, has_selection)
     if row / "multipliers":
         yield EVIDENCE, row / "multipliers", None, ONE
 
@@ -327,9 +327,9 @@ def _weights(shaft: Place, row: Place, status: Any) -> List[Dict[str, Any]]:
     return weights
 
 
-def _by_columns(claims: Claims, row: Place, fields: Any, chosen: bool) -> Claims:
+def _by_columns(claims: Claims, row: Place, fields: Any, has_selection: bool) -> Claims:
     """Claims by the columns that they are about: of one that there is not nothing is claimed."""
-    untold = chosen and not {*row.value} >= OF_STATUS
+    untold = has_selection and not {*row.value} >= OF_STATUS
     try:
         for claim, place, room, size in claims:
             if claim == "active_limits":
@@ -338,11 +338,11 @@ def _by_columns(claims: Claims, row: Place, fields: Any, chosen: bool) -> Claims
             room = None if claim == "status" and untold else room
             path = _column(place.path, len(row.path), fields)
             there = path[-1] in row.value or (path[-1] == WITH_MULTIPLIERS and row / "multipliers")
-            if there or place or not (chosen or path[-1] in (NO_COLUMN, WITH_MULTIPLIERS)):
+            if there or place or not (has_selection or path[-1] in (NO_COLUMN, WITH_MULTIPLIERS)):
                 yield claim, Place(place.value, *path), room, size
     except Unreadable as error:
         path = _column(error.path, len(row.path), fields)
-        if chosen and path[-1] not in row.value:
+        if has_selection and path[-1] not in row.value:
             raise NotCovered(Place(None, *path)) from None
         raise
 

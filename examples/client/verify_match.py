@@ -45,21 +45,21 @@ def matching(request: Place, answer: Place) -> Claims:
     rows = [(k, n) for k, throw in enumerate(design / "throws") for n, _ in enumerate(throw / "rows")]
     classes, nuts = list(_classes(request, rows)), _nuts(request)
     matched = yield from _assigned(answer, classes, nuts, rows)
-    listed = dict.fromkeys(rows, 0.0)
+    input_masses = dict.fromkeys(rows, 0.0)
     for kind in classes:
         for row, mass in zip(kind.rows, kind.masses.values()):
-            listed[row] += mass
-    shown = list(answer / "rows")
-    places = [((row / "throw").double(), (row / "row").double()) for row in shown]
+            input_masses[row] += mass
+    entries = list(answer / "rows")
+    places = [((row / "throw").double(), (row / "row").double()) for row in entries]
     yield "rows", answer / "rows", ONE if places == rows else -ONE, ONE
     own = [row for throw in design / "throws" for row in throw / "rows"]
-    for entry, row, mine in zip(shown, places, own):
+    for entry, row, mine in zip(entries, places, own):
         for name in ("throw", "row"):
             yield same("rows", entry / name, (entry / name).value)
         yield same("rows", entry / "name", (mine / "name").value)
         whole = (mine / "reciprocating_mass_kg").number(least=0) + real(matched.get(row, 0.0))
         yield near("rows", entry / "reciprocating_mass_kg", whole * ABOUT_ONE)
-    yield from _evaluated(request, answer, [_with(design, by_row) for by_row in (listed, matched)], classes, nuts)
+    yield from _evaluated(request, answer, [_with(design, by_row) for by_row in (input_masses, matched)], classes, nuts)
 
 
 def _classes(request: Place, rows: List[Row]) -> Iterator[Parts]:
@@ -119,10 +119,10 @@ def _evaluated(
     """Both ellipses, the objective, and its gap."""
     goal, proof, none = request / "objective", answer / "certificate", Place(None)
     before, after = (Machine(design, goal, none, none) for design in machines)
-    chosen = (request / "choose_counterweights").value is True
+    is_choice = (request / "choose_counterweights").value is True
     fitted = yield from _fitted(after, answer, machines[1])
     turning = fitted.first
-    if not chosen:
+    if not is_choice:
         webs = (web for web in request / "machine" / "webs" if web / "fixed")
         there = {(web / "name").text(): web / "fixed" for web in webs}
         there.update({(entry / "web").text(): entry for entry in request / "counterweights"})
@@ -144,14 +144,14 @@ def _evaluated(
     yield from first_order("after", answer / "residual" / "after", residual)
     yield near("objective", proof / "objective", objective)
     size = value(before, before.laden)
-    if not chosen:
-        listed = before.responses(turning)
-        size = value(before, listed)
-        yield from first_order("before", answer / "residual" / "before", listed)
+    if not is_choice:
+        unsorted = before.responses(turning)
+        size = value(before, unsorted)
+        yield from first_order("before", answer / "residual" / "before", unsorted)
         yield near("before", proof / "objective_as_listed", size)
     yield near("yardstick", proof / "yardstick", size)
     yield from _gap(request, answer, proof)
-    if not chosen and _count(classes, nuts, len(list(_places(request / "machine")))) <= MOST:
+    if not is_choice and _count(classes, nuts, len(list(_places(request / "machine")))) <= MOST:
         lengths = {name: float(weight) for name, weight in weights.items()}
         bare = [_with(request / "machine", {row: HEAVY}) for row in [None, *_places(request / "machine")]]
         responses = [Machine(entry, none, none, none).responses(turning) for entry in bare]

@@ -39,11 +39,11 @@ class Misplaced(Value):
         loads = self.part.loads
         curve = loads.with_weights(name, self.fitted.turning)
         ranges = [Range(*peak_of(curve, self.part.goal, enough)[:2])]
-        vectors = [loads.added(name, [item]) for item in self.free]
-        corners = turned_outline(vectors) if self.by_angle else [SHARE * item for item in zonotope(vectors)]
+        vectors = [loads.vector(name, [item]) for item in self.free]
+        corners = rotation_outline(vectors) if self.by_angle else [SHARE * item for item in zonotope(vectors)]
         for corner in corners:
-            ranges.append(Range(*peak_of(curve.moved(corner), self.part.goal, max(most(ranges).low, enough))[:2]))
-        still = curve.moved(-curve.mean).size
+            ranges.append(Range(*peak_of(curve.plus(corner), self.part.goal, max(most(ranges).low, enough))[:2]))
+        still = curve.plus(-curve.mean).size
         if still <= SAMPLE * loads.size_of(name):
             # what turns with the shaft alone has one length, at worst no more than at a corner
             least = self._at_worst(curve.mean, vectors)
@@ -65,8 +65,8 @@ class Misplaced(Value):
         for statement in self.part.statements:
             rows: Dict[str, float] = {row: float(floor) for row, floor in statement.floor.items()}
             for term in statement.terms.values():
-                moved = [(vector * factor).middle() for vector, factor in zip(vectors, self.part.of_first_order(term))]
-                rows[term.row] += worst(term.start.middle(), moved, ANGLE if self.by_angle else SHARE)
+                shifts = [(vector * factor).middle() for vector, factor in zip(vectors, self.part.of_first_order(term))]
+                rows[term.row] += worst(term.start.middle(), shifts, ANGLE if self.by_angle else SHARE)
             there = statement.machine.responses(self.fitted.first)
             for name in {term.moves for term in statement.terms.values()}:
                 noise = max(noise, ROUNDING * float(self.part.size(statement, there, name)))
@@ -83,8 +83,8 @@ class Misplaced(Value):
     def _mean(self, name: str, weight: float) -> Range:
         loads = self.part.loads
         curve = loads.with_weights(name, self.fitted.turning)
-        still, vectors = curve.mean, [loads.added(name, [mass]) for mass in self.free]
-        value = hypot(curve.moved(-still).rms, self._at_worst(still, vectors)) * weight
+        still, vectors = curve.mean, [loads.vector(name, [mass]) for mass in self.free]
+        value = hypot(curve.plus(-still).rms, self._at_worst(still, vectors)) * weight
         return Range(value, value)
 
 
@@ -99,7 +99,7 @@ def zonotope(vectors: Sequence[complex]) -> List[complex]:
     return corners
 
 
-def turned_outline(vectors: Sequence[complex]) -> List[complex]:
+def rotation_outline(vectors: Sequence[complex]) -> List[complex]:
     """Corners of an outline around all sums of v (e^{j psi} - 1), |psi| up to the angle."""
     start, edges = 0j, []
     for v in vectors:

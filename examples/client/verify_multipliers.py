@@ -37,7 +37,7 @@ class Program:
 
     def __init__(self, request: Place, machine: Machine, answer: Place) -> None:
         goal = request / "objective"
-        self.machine, self.off, self.named = machine, scatter(request), goals(request)
+        self.machine, self.off, self.goal_names = machine, scatter(request), goals(request)
         self.scattered = self.off.share.high > 0 or self.off.besides.high > 0
         weights = {name: weight for name, weight in weighed(goal, machine).items() if weight.high > 0}
         for kind in ("bearing", "bending", "roll"):
@@ -46,22 +46,24 @@ class Program:
         together = (goal / "combine").text("sum", "max", default="sum") == "sum"
         self.rows = {"sum": external} if together else {name: {name: weight} for name, weight in external.items()}
         every = cases(request, machine, answer / "reference_plane_m")
-        self.parts = {case.name: Part(case, weights, self.named) for case in every}
+        self.parts = {case.name: Part(case, weights, self.goal_names) for case in every}
         self.first = next(iter(self.parts.values()))
         #: what is proven may be a mean of several corners, whose shares are not told
         self.mixed = bool(self.first.corners)
         self.webs = [*machine.webs, *(entry.web for entry in self.first.geared)]
         #: of the last bound: what it rises by per kg m on each web
         self.slopes: List[Number] = []
-        listed = answer / "certificate" / "goals"
-        self.levels = [(entry / "limit").number() for entry in listed if (entry / "goal").text() in self.named[:-1]]
-        if answer and len(self.levels) != len(self.named) - 1:
+        entries = answer / "certificate" / "goals"
+        self.levels = [
+            (entry / "limit").number() for entry in entries if (entry / "goal").text() in self.goal_names[:-1]
+        ]
+        if answer and len(self.levels) != len(self.goal_names) - 1:
             raise NotCovered(answer / "certificate" / "goals")
 
     def up_to(self, goal: int) -> Program:
         """The same with the goals up to one."""
         program = copy(self)
-        program.named, program.levels = self.named[: goal + 1], self.levels[:goal]
+        program.goal_names, program.levels = self.goal_names[: goal + 1], self.levels[:goal]
         return program
 
     def _part(self, cut: Place) -> Part:
@@ -92,14 +94,14 @@ class Program:
         # weights that are large beside what they leave: each is a figure of its own
         vectors = [item * wide + self.machine.blur * size for item, size in zip(exact, sizes)]
         for item in terms:
-            moved = item.start
+            point = item.start
             for vector, factor in zip(vectors, item.factors):
-                moved = moved + vector * factor
-            moved = moved.parts()[0] if item.scalar else moved
+                point = point + vector * factor
+            point = point.parts()[0] if item.scalar else point
             before = rows.get((item.group, item.row), item.floor)
-            length = abs(moved) + self.off.of(item.factors, sizes)
+            length = abs(point) + self.off.of(item.factors, sizes)
             rows[item.group, item.row] = before + (abs(length + J * item.still) if item.mean else length)
-        groups = {group for group, _ in rows if group[1] == len(self.named) - 1}
+        groups = {group for group, _ in rows if group[1] == len(self.goal_names) - 1}
         most = {group: largest(*(value for (of, _), value in rows.items() if of == group)) for group in groups}
         every = {group[0] for group in groups}
         return largest(ZERO, *(total(value for group, value in most.items() if group[0] == case) for case in every))
@@ -136,9 +138,9 @@ class Program:
         self._add_ceilings(pulls, proof)
         lengths: Dict[str, Number] = {}
         for cut in proof / "ceilings":
-            named = (cut / "response").text() + (f" in {(cut / 'scenario').text()}" if cut / "scenario" else "")
+            label = (cut / "response").text() + (f" in {(cut / 'scenario').text()}" if cut / "scenario" else "")
             if not cut / "angle_deg":
-                lengths[named] = lengths.get(named, ZERO) + abs((cut / "x").number() + J * (cut / "y").number())
+                lengths[label] = lengths.get(label, ZERO) + abs((cut / "x").number() + J * (cut / "y").number())
         for row in proof / "rows":
             name, _, case = (row / "name").text().partition(" in ")
             part = self.parts.get(case or None)
@@ -230,7 +232,7 @@ class Program:
         prices: Dict[Tuple[Optional[str], int], Number] = {}
         for (case, goal, _), value in sums.items():
             prices[case, goal] = largest(prices.get((case, goal), ZERO), value)
-        last = len(self.named) - 1
+        last = len(self.goal_names) - 1
         if len(prices) == 1 and last == 0:
             (price,) = prices.values()
             price = ONE if cost is ZERO else price

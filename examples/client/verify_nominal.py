@@ -26,7 +26,7 @@ NO_SCATTER = Scatter(ZERO, ZERO)
 def nominal_part(request: Place, machine: Machine, parts: Sequence[Part]) -> Part:
     """The machine without scenarios, nothing off."""
     first = parts[0]
-    return Part(Case(without_cases(request), machine, ONE, None), first.unweighted, first.named)
+    return Part(Case(without_cases(request), machine, ONE, None), first.unweighted, first.goal_names)
 
 
 def nominal_optimum(request: Place, machine: Machine, parts: Sequence[Part], off: Scatter, answer: Place) -> Claims:
@@ -36,7 +36,7 @@ def nominal_optimum(request: Place, machine: Machine, parts: Sequence[Part], off
     if not best:
         yield "nominal_optimum", worst, -ONE if worst else ONE, ONE
         return
-    goal, plain = parts[0].named[-1], nominal_part(request, machine, parts)
+    goal, plain = parts[0].goal_names[-1], nominal_part(request, machine, parts)
     masses = (request / "tolerances" / "reciprocating_mass_relative").double(0.0)
     none = masses == 0 and all(share.high == 0 for share in off) and not scenarios(request)
     if none:
@@ -49,11 +49,11 @@ def nominal_optimum(request: Place, machine: Machine, parts: Sequence[Part], off
         yield from _without_search(place, parts, answer)
         return
     there = yield from fitted(request, machine, place / "nominal_counterweights", place / "nominal_balance_shafts")
-    chosen, bare = Value(plain, there, NO_SCATTER), Value(plain, fixed_alone(machine, there), NO_SCATTER)
-    value, rest = chosen.goal(goal), bare.goal(goal)
+    optimum, bare = Value(plain, there, NO_SCATTER), Value(plain, fixed_alone(machine, there), NO_SCATTER)
+    value, rest = optimum.goal(goal), bare.goal(goal)
     wide = WIDE * rest.high
     yield within("nominal_optimum", best, value.low, value.high, wide)
-    yield from margins(place, [chosen], [bare], True)
+    yield from margins(place, [optimum], [bare], True)
     of_all = most([Value(case, there, off).goal(goal) for case in parts])
     yield within("nominal_optimum", worst, of_all.low, of_all.high, WIDE * of_all.high + wide)
     lowest = place / "nominal_lower_bound"
@@ -80,6 +80,6 @@ def _without_search(place: Place, parts: Sequence[Part], answer: Place) -> Claim
     worst, lowest = place / "nominal_optimum_worst_case", answer / "certificate" / "lower_bound"
     yield "nominal_optimum", place / "nominal_optimum", None, ONE
     # a goal before it may have been kept to another limit
-    free = len(parts[0].named) == 1 and not any(part.exact.caps or part.limited for part in parts)
+    free = len(parts[0].goal_names) == 1 and not any(part.exact.caps or part.limited for part in parts)
     broken = free and worst.double() < lowest.double(0.0) * (1 - WIDE)
     yield "nominal_optimum", worst, -ONE if broken else None, ONE

@@ -28,10 +28,10 @@ def comparison(claim: str, pattern: Place, turn: Turn, place: Place) -> Claims:
     omega = (design / "speed_rpm").double() * pi / 30
     lost = place / "pins_W"
     per_force = (design / "pin_diameter_m").double() * (design / "pin_friction_coefficient").double() * omega
-    shown = pins.rest >= _NARROW and not pins.loose and (len(torque.angles) + 4) * pins.count <= _MOST
+    is_covered = pins.rest >= _NARROW and not pins.loose and (len(torque.angles) + 4) * pins.count <= _MOST
     if turn.is_unbounded:
         yield same(claim, lost, None)
-    elif not shown:
+    elif not is_covered:
         yield claim, lost, None, ONE
     else:
         loads = sum(_load(turn, k) for k in range(pins.count))

@@ -68,9 +68,9 @@ def _of_rows(request: Place, machine: Machine, order: int) -> Optional[Responses
             ratio = min((throw / "crank_radius_m").double() / length, 1.0)
             share, off = (ratio if order == 2 else 0.0, 0.0) if cut_off else harmonic(order, ratio)
             size = row_masses(row)[0] * radius * HALF * (real(share) + real(off) * _EITHER_WAY)
-            turned = power(crank * axis.conjugate(), order)
+            phasor = power(crank * axis.conjugate(), order)
             where = (throw / "position_m").number() + (row / "offset_m").number(0.0)
-            parts.append((size, axis * turned, axis * turned.conjugate(), where))
+            parts.append((size, axis * phasor, axis * phasor.conjugate(), where))
     return _plus(dict.fromkeys(NAMES, (ZERO, ZERO)), machine, parts)
 
 
@@ -141,7 +141,7 @@ def floor(machine: Machine, design: Place, place: Place) -> Claims:
     backwards = [shaft for shaft in design / "balance_shafts" if (shaft / "speed_ratio").double() == -1]
     planes = [(web / "position_m").number() for shaft in backwards for web in shaft / "webs"]
     arms = any(abs(plane - machine.plane).low > 0 for plane in planes)
-    taken = {"force": bool(planes), "moment": arms}
+    has_planes = {"force": bool(planes), "moment": arms}
     for name, unit in NAMES.items():
-        figure = ZERO if taken[name] else abs(machine.before[name][1])
+        figure = ZERO if has_planes[name] else abs(machine.before[name][1])
         yield near("floor", place / f"{name}_{unit}", figure)

@@ -29,14 +29,14 @@ def dynamics(request: Place, machine: Machine, answer: Place, there: Optional[Fi
     """All that an answer holds of the rows over a revolution, and of the moment inside the shaft."""
     if answer / "internal_moment":
         yield from internal_moment(machine, answer / "internal_moment", there)
-    named = [name for name in OUTPUTS if answer / name]
-    if not named and not answer / "loads":
+    names = [name for name in OUTPUTS if answer / name]
+    if not names and not answer / "loads":
         return
     fidelity = request / "fidelity" / "kinematics"
     if fidelity.text(default="exact") != "exact":
         raise NotCovered(fidelity)
     pistons = Pistons(request / "machine", machine, list(rows_of(request / "machine")))
-    for name in named:
+    for name in names:
         yield from covered(OUTPUTS[name](request, pistons, answer / name))
     if answer / "loads":
         yield from covered(designer_loads(request, machine, pistons, answer))

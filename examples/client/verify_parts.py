@@ -11,7 +11,7 @@ from typing import Sequence
 from verify_bearings import PEAK, SAMPLE, within
 from verify_claims import Claims, same
 from verify_curves import Turn
-from verify_dynamics import RUBBED, alone, enclosed, of_row, series, shown
+from verify_dynamics import RUBBED, alone, enclosed, of_row, output, series
 from verify_gas import force
 from verify_gravity import guide, turning_mass, weights
 from verify_harmonics import Peak
@@ -24,7 +24,7 @@ from verify_rods import CASES, RANGE, fluctuation, leaning, of_shaft
 def designer_loads(request: Place, machine: Machine, pistons: Pistons, answer: Place) -> Claims:
     """All of them."""
     place, design = answer / "loads", request / "machine"
-    table = yield from shown("loads", request, pistons, place)
+    table = yield from output("loads", request, pistons, place)
     for row, k, entry in table.rows:
         there = of_row(pistons, table.angles, k)
         yield from _row(pistons, row, k, entry, there)
@@ -96,12 +96,12 @@ def _base(design: Place, pistons: Pistons, place: Place, angles: Sequence[float]
     """What the torque of rows and shaft does to one base of machine and driver, to that of the machine alone, and
     to the speed."""
     every = of_shaft(pistons)
-    whole, off = every.moved(complex(pistons.rubbing)), RUBBED * (every.size + abs(pistons.rubbing))
+    whole, off = every.plus(complex(pistons.rubbing)), RUBBED * (every.size + abs(pistons.rubbing))
     mean = whole.mean.real
     beyond = [whole.value(angle).real - mean for angle in angles]
     yield within("loads", place / "driver_Nm", mean, mean, off)
     yield from series("loads", place / "shared_base_Nm", beyond, off)
-    for field, curve in (("own_base_peak_Nm", whole), ("shared_base_peak_Nm", whole.moved(complex(-mean)))):
+    for field, curve in (("own_base_peak_Nm", whole), ("shared_base_peak_Nm", whole.plus(complex(-mean)))):
         peak = enclosed(curve, place / field)
         yield within("loads", place / field, peak.low * (1 - PEAK), peak.high, off)
     wheel = design / "flywheel"

@@ -47,9 +47,9 @@ def equilibrium(claim: str, turn: Turn, place: Place, loads: List[List[float]]) 
     for n, angle in enumerate(turn.angles):
         samples = [load[n] for load in loads]
         size, span = sum(map(abs, samples)), max(pins.radii)
-        turned = sum(load * pins.lever(k, angle) for k, load in enumerate(samples[: pins.count]))
+        pin_moment = sum(load * pins.lever(k, angle) for k, load in enumerate(samples[: pins.count]))
         slack = 2 * BALANCED * size
-        yield claim, entry / "holds", real(slack * span + EXACT * torque.most - abs(turned - torque.at(angle))), ONE
+        yield claim, entry / "holds", real(slack * span + EXACT * torque.most - abs(pin_moment - torque.at(angle))), ONE
         yield claim, entry / "holds", real(slack - abs(sum(samples))), ONE
     carriers = [*(place / "pins"), *([place / "drive_bearing"] if place / "drive_bearing" else [])]
     # the peaks together are above all loads of any instant
@@ -62,9 +62,9 @@ def _on_average(claim: str, turn: Turn, entry: Place) -> Claims:
     """Of one pin and two the formula leaves T cos 2t, and of one the load itself."""
     pins, torque = turn.pins, turn.torque
     angles = [*turn.angles, *torque.angles, *(_STEP * n + pins.phases[0] for n in range(8))]
-    turned = max(abs(torque.at(angle) * cos(2 * radians(angle - pins.phases[0]))) for angle in angles)
+    pin_moment = max(abs(torque.at(angle) * cos(2 * radians(angle - pins.phases[0]))) for angle in angles)
     net = max(abs(pins.load(0, torque.at(angle), angle)[0]) for angle in angles) if pins.count == 1 else 0.0
-    yield within(claim, entry / "max_moment_error_Nm", turned, turned, EXACT * torque.most)
+    yield within(claim, entry / "max_moment_error_Nm", pin_moment, pin_moment, EXACT * torque.most)
     yield within(claim, entry / "max_net_force_N", net, net, EXACT * torque.most / pins.radii[0])
     yield same(claim, entry / "holds", torque.most == 0)
 

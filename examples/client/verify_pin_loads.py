@@ -73,15 +73,15 @@ def _turn(request: Place, pattern: Place, place: Place) -> Claims:
     yield from equilibrium(CLAIM, turn, place, loads)
     yield from mechanism(CLAIM, pins, place / "mechanism")
     yield from energy(CLAIM, pins, turn.torque, place / "energy")
-    yield from _both(pins.loose, place / "contact")
+    yield from _presence(pins.loose, place / "contact")
     if pins.loose and place / "contact":
         yield from contact(CLAIM, turn, place, loads)
-    yield from _both(bool(pattern / "comparison"), place / "comparison")
+    yield from _presence(bool(pattern / "comparison"), place / "comparison")
     if pattern / "comparison" and place / "comparison":
         yield from comparison(CLAIM, pattern, turn, place / "comparison")
 
 
-def _both(due: bool, place: Place) -> Claims:
+def _presence(due: bool, place: Place) -> Claims:
     """A part is there, or it is not."""
     yield CLAIM, place, ONE if bool(place) == due else -ONE, ONE
 
@@ -108,7 +108,7 @@ def _carried(turn: Turn, place: Place) -> Claims:
         if not pins.loose:
             yield same(CLAIM, entry / "carries_load", None)
     yield same(CLAIM, place / "peak_N", None if turn.is_unbounded else max(peaks))
-    yield from _both(pins.drive > 0, place / "drive_bearing")
+    yield from _presence(pins.drive > 0, place / "drive_bearing")
     if pins.drive and place / "drive_bearing":
         loads.append((yield from _load(turn, place / "drive_bearing", pins.count)))
     return loads

@@ -113,7 +113,7 @@ class Pins:
         if not self.phases or (kind == "elastic" and not self.drive):
             raise Unreadable(place.path, "must have pins, and an elastic bearing its stiffness")
         self.formula = self.even and self.drive == 0
-        self.held = isinf(self.drive)
+        self.is_rigid = isinf(self.drive)
         self.places = [rect(radius, radians(angle)) for radius, angle in zip(self.radii, self.phases)]
         self.loose = not self.formula and (any(self.clearances) or any(self.errors))
         self.dead = self._dead()
@@ -146,16 +146,16 @@ class Pins:
             self.shapes += [Shape(0.0, 0.0, factor * self.count)] if self.drive else []
             self.flat, self.rest, self.axis = 0.0, 1.0, 0.0
             return
-        most = max([*self.stiffness, *([] if self.held else [self.drive])])
+        most = max([*self.stiffness, *([] if self.is_rigid else [self.drive])])
         weights = [stiffness / most for stiffness in self.stiffness]
         places = list(self.places)
-        if self.drive and not self.held:
+        if self.drive and not self.is_rigid:
             places, weights = [*places, 0j], [*weights, self.drive / most]
         whole = sum(weights)
         # from pin to pin: beside a pin that is much stiffer than the others the mean would cancel
         offsets = (
             places
-            if self.held
+            if self.is_rigid
             else [sum(weight * (place - other) for other, weight in zip(places, weights)) / whole for place in places]
         )
         major, minor, self.axis = ellipse(offsets, weights)
@@ -164,11 +164,11 @@ class Pins:
             raise NotCovered(Place({}, "request"))
         self.flat, self.rest = (major - minor) * (major + minor) / square, 2 * minor**2 / square
         pushes = [weight * offset for weight, offset in zip(weights, offsets)]
-        if self.held:
+        if self.is_rigid:
             pushes.append(-sum(pushes))
         far = max(map(abs, offsets))
         sizes = [weight * far for weight in weights]
-        sizes += [sum(sizes)] if self.held else []
+        sizes += [sum(sizes)] if self.is_rigid else []
         pairs = zip(pushes, sizes)
         self.shapes = [Shape(2 * abs(push) / square, phase(push), 2 * size / square) for push, size in pairs]
 
@@ -178,17 +178,17 @@ class Pins:
 
     def load(self, k: int, torque: float, angle: float) -> Tuple[float, float]:
         """What a pin carries at an angle [degrees], and by how much doubles may be off [N]."""
-        turned, shape = radians(angle), self.shapes[k]
-        below = self.below(turned)
+        angle_rad, shape = radians(angle), self.shapes[k]
+        below = self.below(angle_rad)
         if below <= 0 or torque == 0:
             return 0.0, 0.0
         off = abs(torque) * shape.most / below * (_OFF + _NEAR / sqrt(below))
-        return torque * shape.factor / below * sin(turned - shape.phase), off
+        return torque * shape.factor / below * sin(angle_rad - shape.phase), off
 
     @property
     def steady(self) -> bool:
         """Whether rounding leaves their loads in balance beyond doubt."""
-        alike = max(self.stiffness) <= _ALIKE * min([*self.stiffness, *([] if self.held else [self.drive or inf])])
+        alike = max(self.stiffness) <= _ALIKE * min([*self.stiffness, *([] if self.is_rigid else [self.drive or inf])])
         return not self.loose and self.rest >= 1 / _ALIKE and (alike or self.even)
 
     @property

@@ -154,7 +154,6 @@ class Pistons:
         self.turns = max((row.turns for row in self.rows), default=1)
         self.rubbing = self._rub(design / "friction", sqrt(self.square))
         #: whether anything but inertia acts
-        self.pressed = any(row.chambers or row.friction for row in self.rows)
         self.place, self._count = design / "throws", 0
         self._instants: Dict[Tuple[int, float, float], Instant] = {}
         self._steepness: Dict[Tuple[int, float, float], Steepness] = {}

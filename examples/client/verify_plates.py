@@ -44,8 +44,8 @@ class Plate(NamedTuple):
     def inertia(self, angle: float) -> float:
         if not self.chord:
             return self.areal * angle * (self.outer**4 - self.inner**4) / 2
-        both = ((self.outer, angle), (self.inner, self._hub(angle)))
-        large, small = (r**4 * (_excess(a) / 2 + sin(a) ** 3 * cos(a) / 3) for r, a in both)
+        sectors = ((self.outer, angle), (self.inner, self._hub(angle)))
+        large, small = (r**4 * (_excess(a) / 2 + sin(a) ** 3 * cos(a) / 3) for r, a in sectors)
         return self.areal * (large - small)
 
     def lever(self, angle: float) -> float:

@@ -12,7 +12,7 @@ Intervals are halved until no angle can exceed the largest value by more than 1e
 
 from __future__ import annotations
 
-from cmath import exp as turned
+from cmath import exp
 from functools import cached_property, lru_cache
 from math import cos, hypot, inf, pi, sin, sqrt
 from typing import Callable, Dict, List, NamedTuple, Optional, Sequence, Tuple
@@ -72,7 +72,7 @@ class _Part(NamedTuple):
         return (self.start, self.first), (self.end, self.last)
 
 
-class Pressed:
+class PressureCurve:
     """Sums of a force of rows, by their numbers, times weights, and of what turns k times with the shaft."""
 
     def __init__(
@@ -87,10 +87,10 @@ class Pressed:
         self.scalar, self.beside = reading != "shaft", dict(turning or {})
         self._rows: Optional[Mean] = None
 
-    def moved(self, by: complex, order: int = 0) -> Pressed:
+    def plus(self, by: complex, order: int = 0) -> PressureCurve:
         """The curve with a vector that turns ``order`` times."""
         turning = {**self.beside, order: self.beside.get(order, 0j) + by}
-        curve = Pressed(self.pistons, self.reading, self.weights, turning, self.acting)
+        curve = PressureCurve(self.pistons, self.reading, self.weights, turning, self.acting)
         curve._rows = self._rows
         return curve
 
@@ -104,7 +104,7 @@ class Pressed:
         if not self.scalar:
             vector *= complex(cos(shaft), -sense * sin(shaft))
         for order, phasor in self.beside.items():
-            vector += phasor * (turned(1j * order * sense * shaft) if order else 1)
+            vector += phasor * (exp(1j * order * sense * shaft) if order else 1)
         return complex(vector.real) if self.scalar else vector
 
     def at(self, angle: float) -> complex:
@@ -206,7 +206,7 @@ class Pressed:
     @property
     def _of_rows(self) -> Mean:
         if self._rows is None:
-            rows = Pressed(self.pistons, self.reading, self.weights, {}, self.acting)
+            rows = PressureCurve(self.pistons, self.reading, self.weights, {}, self.acting)
             pieces = [_integrals(rows, *piece, (sum(piece)) / 2, rows.size) for piece in self.pistons.pieces]
             whole = self.pistons.period
             middle = sum(pair[0] for pair in pieces) / whole
@@ -215,7 +215,7 @@ class Pressed:
 
 
 def _integrals(
-    curve: Pressed, start: float, end: float, within: float, size: float, depth: int = 0
+    curve: PressureCurve, start: float, end: float, within: float, size: float, depth: int = 0
 ) -> Tuple[complex, float]:
     """Of a curve and its square between two angles: by a quadrature, and both halves of it."""
     width, middle = end - start, (start + end) / 2

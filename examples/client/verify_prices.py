@@ -68,16 +68,16 @@ def worst_by_angle(start: complex, vectors: Sequence[complex], angle: float) -> 
     length = abs(start + sum(vectors))
     for low, high in zip(edges, [*edges[1:], edges[0] + 2 * pi]):
         middle = (low + high) / 2
-        constant, turned = 0.0, start
+        constant, vector = 0.0, start
         for size, way in there:
             off = (middle - way + pi) % (2 * pi) - pi
             if abs(off) <= angle:
                 constant += size
             else:
-                turned += rect(size, way + (angle if off > 0 else -angle))
-        best = low + min(max((phase(turned) - middle + pi) % (2 * pi) - pi + (middle - low), 0.0), high - low)
+                vector += rect(size, way + (angle if off > 0 else -angle))
+        best = low + min(max((phase(vector) - middle + pi) % (2 * pi) - pi + (middle - low), 0.0), high - low)
         for way in (low, high, best):
-            length = max(length, constant + (turned * complex(cos(way), -sin(way))).real)
+            length = max(length, constant + (vector * complex(cos(way), -sin(way))).real)
     return length
 
 
@@ -96,12 +96,12 @@ class Priced(NamedTuple):
     edge: bool = False  # whether rounding tells if it costs anything
 
 
-def prices(statement: Statement, request: Place, answer: Place, there: Fitted, chosen: bool) -> Claims:
+def prices(statement: Statement, request: Place, answer: Place, there: Fitted, is_choice: bool) -> Claims:
     """The slope of the bound at the limits: none of choices and of groups, where one web does not give way alone."""
     place, goal, proof = answer / "shadow_prices", request / "objective", answer / "certificate"
     machine, gap = statement.machine, proof / "gap"
     entries = list(place)
-    if chosen or machine.groups or not gap:
+    if is_choice or machine.groups or not gap:
         yield "shadow_prices", place, -ONE if entries else ONE, ONE
         return
     # of the first response that is weighed
@@ -131,10 +131,10 @@ def prices(statement: Statement, request: Place, answer: Place, there: Fitted, c
         per = "N" if field.endswith("_N") else "(N m)"
         stated.append(Priced(limit, "", length, (goal / field).double(), per, limit in touched))
     rest = (proof / "objective_without_counterweights").double(0.0)
-    yield from listed_prices(place, stated, weight, unit, gap.double(), rest, dust)
+    yield from price_entries(place, stated, weight, unit, gap.double(), rest, dust)
 
 
-def listed_prices(
+def price_entries(
     place: Place, stated: Sequence[Priced], weight: float, unit: str, gap: float, rest: float, dust: float
 ) -> Claims:
     """Prices of what is touched, or holds the objective up, each once, and 0 where the gap is worth more.
@@ -162,9 +162,9 @@ def listed_prices(
         # a whole limit that is worth less than the gap has no price that can be told
         by_rounding = 1e-9 * rest / weight / exact.size if exact.size > 1e-300 else 0.0
         near_it = abs(price - value) <= 1e-6 * value + dust / weight + by_rounding
-        held = near_it if price > 0 else exact.size > 0 and whole <= gap * (1 + 1e-3) + 1e-12 * rest
-        held = held or (price == 0 and (exact.edge or value <= 1e-12 * (rest / weight) + dust / weight))
-        yield "shadow_prices", entry / "value", ONE if held else -ONE, ONE
+        holds = near_it if price > 0 else exact.size > 0 and whole <= gap * (1 + 1e-3) + 1e-12 * rest
+        holds = holds or (price == 0 and (exact.edge or value <= 1e-12 * (rest / weight) + dust / weight))
+        yield "shadow_prices", entry / "value", ONE if holds else -ONE, ONE
 
 
 def slope(statement: Statement, proof: Place) -> Tuple[List[complex], Dict[str, float]]:

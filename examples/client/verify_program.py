@@ -242,18 +242,18 @@ class Statement:
         ratios = {gear.web.name: gear.ratio for gear in self.geared}
         webs = [web for web in webs if ratios.get(web.name, 1) == 1]
         slope, _ = self.slopes(y, terms)
-        chosen: dict[str, Key] = {}
+        pivots: dict[str, Key] = {}
         for key, term in terms.items():
             if term.factor.low > 0 and term.moves in NAMES:
-                chosen.setdefault(term.moves, key)
+                pivots.setdefault(term.moves, key)
         arms = {web.position.low: web.position - self.machine.plane for web in webs}
-        if len(arms) == 1 and "force" in chosen:
+        if len(arms) == 1 and "force" in pivots:
             # on one plane it is enough that force and moment together do nothing
             slope = {"force": slope["force"] + slope["moment"] * next(iter(arms.values()))}
-        if not webs or any(abs(slope[name]).high > 0 for name in slope.keys() - chosen.keys()):
+        if not webs or any(abs(slope[name]).high > 0 for name in slope.keys() - pivots.keys()):
             return {}
-        for name in chosen.keys() & slope.keys():
-            y[chosen[name]] = y[chosen[name]] - slope[name] / terms[chosen[name]].factor
+        for name in pivots.keys() & slope.keys():
+            y[pivots[name]] = y[pivots[name]] - slope[name] / terms[pivots[name]].factor
         return {web.name: web for web in webs}
 
     def reach(self, web: Web, implied: Place) -> Number | None:
@@ -278,13 +278,13 @@ class Statement:
 
     def reachable(self, implied: Place) -> Number | None:
         """What all that the limits allow adds to the rows at most; None where there is no limit."""
-        added = ZERO
+        gain = ZERO
         for web in self.webs:
             limit = self.reach(web, implied)
             if limit is None:
                 return None
-            added = added + total(self.change(web, row) for row in self.rows) * limit
-        return added
+            gain = gain + total(self.change(web, row) for row in self.rows) * limit
+        return gain
 
     def lightest(self, sizes: dict[str, Number], implied: Place) -> Number | None:
         """The least mass that could cancel one of the rows, of these sizes; None where none can be."""

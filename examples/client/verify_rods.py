@@ -7,11 +7,11 @@ from typing import Callable, Dict, Optional
 
 from verify_bearings import PEAK, SAMPLE, magnitude, within
 from verify_claims import LARGE, Claim, Claims, same
-from verify_dynamics import RUBBED, alone, enclosed, of_row, series, shown, signed
+from verify_dynamics import RUBBED, alone, enclosed, of_row, output, series, signed
 from verify_harmonics import Peak
 from verify_numbers import ONE, Place, real
 from verify_pistons import Piston, Pistons, integral
-from verify_pressed import ALL, READINGS, Acting, Pressed
+from verify_pressed import ALL, READINGS, Acting, PressureCurve
 
 #: which forces act in every load case of a rod (design calculation of the 2D12, section 2.5)
 CASES = {
@@ -26,7 +26,7 @@ FINE = 2  # parts of a piece in which the torque crosses its mean once at most
 def rod_loads(request: Place, pistons: Pistons, place: Place) -> Claims:
     """Series, and the load cases of every rod."""
     claim = "rod_loads"
-    table = yield from shown(claim, request, pistons, place)
+    table = yield from output(claim, request, pistons, place)
     worst = 0.0
     for row, k, item in table.rows:
         off = (SAMPLE * (row.most + row.moving[0]) + RUBBED * row.friction) * leaning(row)
@@ -58,7 +58,7 @@ def leaning(row: Piston) -> float:
     return 2 / sqrt(1 - row.ratio**2)
 
 
-def where(claim: str, place: Place, curve: Pressed, peak: Peak, off: float, sign: int = 0) -> Claim:
+def where(claim: str, place: Place, curve: PressureCurve, peak: Peak, off: float, sign: int = 0) -> Claim:
     """The shaft angle of a peak: the curve has it there."""
     angle, period = radians(place.double()), curve.pistons.period * (1 + 1e-12)
     values = [sign * value.real if sign else abs(value) for value in curve.sides(angle * curve.pistons.sense)]
@@ -69,7 +69,7 @@ def where(claim: str, place: Place, curve: Pressed, peak: Peak, off: float, sign
 def torque(request: Place, pistons: Pistons, place: Place) -> Claims:
     """Of every row and of all, its mean, powers, and what a flywheel takes up."""
     claim, omega, every = "torque", sqrt(pistons.square), of_shaft(pistons)
-    table = yield from shown(claim, request, pistons, place)
+    table = yield from output(claim, request, pistons, place)
     off = RUBBED * every.size + RUBBED * abs(pistons.rubbing)
     samples = [0.0] * len(table.angles)
     for row, k, item in table.rows:
@@ -89,7 +89,7 @@ def torque(request: Place, pistons: Pistons, place: Place) -> Claims:
         yield from series(claim, place / "tangential_N", [item / radius for item in samples], off / radius)
     else:
         yield same(claim, place / "tangential_N", None)
-    whole = every.moved(complex(rubs))
+    whole = every.plus(complex(rubs))
     peak = enclosed(whole, place)
     yield from magnitude(claim, place, "peak", "Nm", peak, off)
     yield where(claim, place / "peak_angle_deg", whole, peak, off)
@@ -107,16 +107,16 @@ def torque(request: Place, pistons: Pistons, place: Place) -> Claims:
     yield within(claim, place / "fluctuation_energy_J", energy, energy, RANGE * every.size)
 
 
-def of_shaft(pistons: Pistons) -> Pressed:
+def of_shaft(pistons: Pistons) -> PressureCurve:
     """The torque of all rows."""
-    return Pressed(pistons, "tangential", [(k, row.radius) for k, row in enumerate(pistons.rows)])
+    return PressureCurve(pistons, "tangential", [(k, row.radius) for k, row in enumerate(pistons.rows)])
 
 
 def fluctuation(pistons: Pistons) -> float:
     """Range of the running integral of torque - mean [J], which turns where both are equal; by a quadrature."""
     curve = of_shaft(pistons)
     mean, size = curve.mean.real, curve.size
-    done, low, high = 0.0, 0.0, 0.0
+    work, low, high = 0.0, 0.0, 0.0
     for start, end in pistons.pieces:
         within_ = (start + end) / 2
 
@@ -127,8 +127,8 @@ def fluctuation(pistons: Pistons) -> float:
         for a, b in zip(cuts, cuts[1:]):
             root = _root(beyond, a, b)
             for left, right in ((a, root), (root, b)) if root is not None else ((a, b),):
-                done += integral(beyond, left, right, size)
-                low, high = min(low, done), max(high, done)
+                work += integral(beyond, left, right, size)
+                low, high = min(low, work), max(high, work)
     return high - low
 
 
@@ -166,7 +166,7 @@ def flywheel(request: Place, pistons: Pistons, place: Place) -> Claims:
 def overturning(request: Place, pistons: Pistons, place: Place) -> Claims:
     """Side force times its distance from the shaft, which equals the torque."""
     claim = "overturning"
-    table = yield from shown(claim, request, pistons, place)
+    table = yield from output(claim, request, pistons, place)
     every = of_shaft(pistons)
     off = (SAMPLE + RUBBED) * every.size
     samples = [0.0] * len(table.angles)

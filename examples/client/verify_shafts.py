@@ -30,7 +30,7 @@ class Geared(NamedTuple):
         """Its share in a length of the first order, of those of what turns forwards and backwards."""
         return own if self.ratio == 1 else backwards if self.ratio == -1 else ZERO
 
-    def seen(self, unit: Number) -> Number:
+    def on_shaft(self, unit: Number) -> Number:
         """What it is multiplied by where the crankshaft sees it at e^{jt}."""
         return real(self.ratio**2) * power(unit, self.ratio - 1)
 

@@ -33,7 +33,7 @@ def shaking(request: Place, machine: Machine, answer: Place, there: Optional[Fit
         yield from _hodographs(request, machine, answer / "hodograph", there)
     if answer / "orders":
         yield from _sides("orders", answer / "orders", there)
-        for side, fitted in _shown(there):
+        for side, fitted in _states(there):
             own = by_order(request, machine, fitted)
             yield from orders("orders", answer / "orders" / side, own.items())
     if answer / "foundation_loads":
@@ -47,7 +47,7 @@ def by_order(request: Place, machine: Machine, there: Optional[Fitted]) -> Dict[
     return {1: first, **{order: of_order(request, machine, order, shafts) for order in HIGHER}}
 
 
-def _shown(there: Optional[Fitted]) -> Iterator[Tuple[str, Optional[Fitted]]]:
+def _states(there: Optional[Fitted]) -> Iterator[Tuple[str, Optional[Fitted]]]:
     yield "before", None
     if there is not None:
         yield "after", there
@@ -63,14 +63,14 @@ def _hodographs(request: Place, machine: Machine, place: Place, there: Optional[
     angles = yield from sampled("hodograph", place / "angle_deg", request)
     yield from _sides("hodograph", place, there)
     sense = 1 if (request / "machine" / "rotation").text(default="ccw") == "ccw" else -1
-    turned = [exp(1j * sense * radians(item)) for item in angles]
-    for side, fitted in _shown(there):
+    units = [exp(1j * sense * radians(item)) for item in angles]
+    for side, fitted in _states(there):
         responses = machine.before if fitted is None else machine.responses(fitted.first)
         for name, unit in NAMES.items():
             co, counter = (item.middle() for item in responses[name])
             off = total(_wide(item) for item in responses[name])
             least = float(off) + SAMPLE * (abs(co) + abs(counter))
-            vectors = [co * item + counter * item.conjugate() for item in turned]
+            vectors = [co * item + counter * item.conjugate() for item in units]
             for axis, values in (("x", [item.real for item in vectors]), ("y", [item.imag for item in vectors])):
                 samples = list(place / side / f"{name}_{axis}_{unit}")
                 yield "hodograph", place / side, ONE if len(samples) == len(values) else -ONE, ONE
@@ -88,7 +88,7 @@ def _foundation(request: Place, machine: Machine, place: Place, there: Optional[
     numbers = [entry.whole() for entry in request / "foundation_orders"] or [1, 2, 3, 4, 5, 6]
     entries = list(place)
     yield "foundation", place, ONE if len(entries) == len(numbers) else -ONE, ONE
-    sides = dict(_shown(there))
+    sides = dict(_states(there))
     if list(request / "fitted"):
         sides["as_built"] = as_built(request, machine)
     loads = {side: by_order(request, machine, fitted) for side, fitted in sides.items()}
@@ -98,7 +98,7 @@ def _foundation(request: Place, machine: Machine, place: Place, there: Optional[
         yield same("foundation", entry / "order", order)
         centre = entry / "dead_centre_deg"
         degrees = centre.double()
-        way = _turned(request, rows[0]) if rows else ONE
+        way = _direction(request, rows[0]) if rows else ONE
         off = abs(direction(degrees) + BLUR - way)
         yield "foundation", centre, real(FIGURE) - off if 0 <= degrees < 360 else -ONE, ONE
         for side in ("before", "after", "as_built"):
@@ -112,7 +112,7 @@ def _foundation(request: Place, machine: Machine, place: Place, there: Optional[
             yield from _load(request, entry / side, responses, order, way, sizes[side])
 
 
-def _turned(request: Place, row: Place) -> Number:
+def _direction(request: Place, row: Place) -> Number:
     """Where the crank of the first row points along its axis, as a unit vector of the shaft angle."""
     throw = next(iter(request / "machine" / "throws"))
     unit = direction((row / "axis_deg").double()) * direction((throw / "crank_angle_deg").double()).conjugate()
@@ -172,8 +172,8 @@ def as_built(request: Place, machine: Machine) -> Fitted:
         for place in shaft / "webs":
             web, entry = web_of(place, machine.fastest), entries.get((place / "name").text())
             product = (entry / "mass_kg").number() * web.radius if entry else ZERO
-            turned = direction((entry / "angle_deg").double()) if entry else ONE
-            ways = (turned, ZERO) if ratio > 0 else (ZERO, turned)
+            unit = direction((entry / "angle_deg").double()) if entry else ONE
+            ways = (unit, ZERO) if ratio > 0 else (ZERO, unit)
             on_shafts.append((abs(ratio), Mass(product, *ways, web.position)))
     return Fitted(turning, on_shafts, ZERO, ZERO)
 

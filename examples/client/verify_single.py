@@ -58,7 +58,7 @@ def _nothing(answer: Place) -> Claims:
         yield same("status", answer / field, None)
     for field in ("counterweights", "shadow_prices", "balance_shafts", "active_limits"):
         yield "status", answer / field, -ONE if list(answer / field) else ONE, ONE
-    shown = answer / "residual" / "after"
-    yield "status", shown, -ONE if shown else ONE, ONE
+    figures = answer / "residual" / "after"
+    yield "status", figures, -ONE if figures else ONE, ONE
     why = answer / "infeasibility"
     yield "status", answer / "status", ONE if why else -ONE, ONE

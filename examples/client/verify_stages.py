@@ -136,15 +136,15 @@ def superposed(turning: Pair, moving: Pair, fitted: Pair) -> Tuple[Pair, Pair]:
     size = abs(turning.co)
     if size.low * _UNKNOWN <= size.high:
         # whatever its direction, no more than all of it is opposed
-        some = Number(-size.high, size.high)
-        anywhere = some + J * some
-        left, taken = anywhere, anywhere
+        noise = Number(-size.high, size.high)
+        anywhere = noise + J * noise
+        left, iron_share = anywhere, anywhere
     else:
         outward = turning.co / size
         share = largest(-(fitted.co * outward.conjugate()).parts()[0], ZERO)
         share = -largest(-share, -size)
-        left, taken = (size - share) * outward, share * outward
-    return Pair(left, turning.counter), Pair(moving.co + fitted.co + taken, moving.counter + fitted.counter)
+        left, iron_share = (size - share) * outward, share * outward
+    return Pair(left, turning.counter), Pair(moving.co + fitted.co + iron_share, moving.counter + fitted.counter)
 
 
 def _noise(machine: Machine) -> Dict[str, Number]:

@@ -35,9 +35,9 @@ def rules(claim: str, place: Place, pair: Pair, name: str, square: Number, iron:
         yield same(claim, entry / "name", title)
         # words about where it is from
         yield EVIDENCE, entry / "source", None, ONE
-        turned = real(2 * share) * co
-        left = co - turned
-        mass = turned * (iron or ZERO) * ABOUT_ONE / square
+        reduction = real(2 * share) * co
+        left = co - reduction
+        mass = reduction * (iron or ZERO) * ABOUT_ONE / square
         yield figure(claim, entry / "total_mass_radius_kg_m", mass)
         yield figure(claim, entry / "peak", abs(left) + counter)
         yield figure(claim, entry / "peak_along", abs(left + counter))
@@ -62,6 +62,6 @@ def customary(pair: Pair, name: str) -> List[Tuple[float, ...]]:
 
 def upright(pair: Pair) -> Tuple[bool, bool]:
     """Whether the major axis may be nearer y, and whether it may be nearer x or between both."""
-    both = pair.co * pair.counter
-    along, size = both.parts()[0], abs(both) * real(EXACT)
+    product = pair.co * pair.counter
+    along, size = product.parts()[0], abs(product) * real(EXACT)
     return along.low < -size.low // 2, along.high >= -2 * size.high

@@ -45,8 +45,8 @@ def over_turn(request: Place, answer: Place, machine: Machine, fitted: Fitted) -
     design, proof = request / "machine", answer / "certificate"
     program = Program(request, machine, answer)
     objective, lowest, implied = proof / "objective", proof / "lower_bound", proof / "implied_max_mass_kg"
-    chosen = yield from searched(design, answer, proof)
-    of_any_mass = proof / "continuous_lower_bound" if chosen else lowest
+    is_choice = yield from searched(design, answer, proof)
+    of_any_mass = proof / "continuous_lower_bound" if is_choice else lowest
     multipliers, value = proof / "multipliers", objective.number(0.0)
     noise = SPECK * (abs(value) + abs(lowest.number(0.0)))
     # not below what is there at the angles of the cuts
@@ -74,19 +74,19 @@ def over_turn(request: Place, answer: Place, machine: Machine, fitted: Fitted) -
     elif not (first.over_turn or first.geared or first.exact.caps or len(program.parts) > 1):
         rows = dict.fromkeys(first.statements[0].rows, (proof / "yardstick").number(0.0))
         yield from light(first.statements[0], proof, rows, fitted.mass)
-    goals_of = Asked([*program.parts.values()], program.named, program.off, machine, program.rows)
+    goals_of = Asked([*program.parts.values()], program.goal_names, program.off, machine, program.rows)
     yield from covered(values(request, answer, goals_of, fitted))
     yield from covered(cheaper(request, answer, goals_of, fitted))
     yield from covered(_nominal(request, machine, answer))
     if slopes:
         yield from covered(costs(request, answer, machine, program.first, terms, slopes))
-    yield from covered(misplacement(goals_of.parts, program.named[-1], fitted, answer / "sensitivity"))
+    yield from covered(misplacement(goals_of.parts, program.goal_names[-1], fitted, answer / "sensitivity"))
 
 
 def _earlier(program: Program, proof: Place, implied: Place) -> Claims:
     """Bounds of the goals before the last: each by its own multipliers, under the limits of those before it."""
-    listed = [goal for goal in proof / "goals" if (goal / "goal").text() in program.named[:-1]]
-    for n, goal in enumerate(listed):
+    earlier_goals = [goal for goal in proof / "goals" if (goal / "goal").text() in program.goal_names[:-1]]
+    for n, goal in enumerate(earlier_goals):
         if not goal / "lower_bound":
             continue
         if not goal / "multipliers":

@@ -144,6 +144,6 @@ class Value:
         """Of a root mean square: what stands still grows by what is off."""
         curve = self.part.loads.with_weights(name, self.fitted.turning)
         still = curve.mean
-        value = hypot(curve.moved(-still).rms, abs(still) + self._off(name)) * weight
+        value = hypot(curve.plus(-still).rms, abs(still) + self._off(name)) * weight
         rounding = 10 * SAMPLE * curve.size * weight
         return Range(value - rounding, value + rounding)

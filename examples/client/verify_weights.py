@@ -80,7 +80,7 @@ def counterweight(machine: Machine, web: Web, entry: Place, fastest: Number) -> 
         off = abs((Fraction(angle) - Fraction(centre) + turn / 2) % turn - turn / 2)
         yield "sector", entry / "angle_deg", real(Fraction(half) + Fraction(ANGLE) - off), ONE
     if entry / "active_limits":
-        yield from listed("active_limits", entry / "active_limits", dict(_touched(web, entry)))
+        yield from active_limits("active_limits", entry / "active_limits", dict(_touched(web, entry)))
     return Mass(mass * radius, direction(angle), ZERO, web.position)
 
 
@@ -107,9 +107,9 @@ def _crank(crank: Optional[Crank], entry: Place) -> Claims:
 def _alike(machine: Machine, by_name: Dict[str, Place]) -> Claims:
     """Identical castings: the same mass and the same angle from the own crank, or mirrored."""
     for group in machine.groups:
-        (first, crank, _), *others = group
+        (first, crank, _), *copies = group
         same = by_name[machine.webs[first].name]
-        for k, angle, mirrored in others:
+        for k, angle, mirrored in copies:
             entry = by_name[machine.webs[k].name]
             yield near("web_groups", entry / "mass_kg", (same / "mass_kg").number())
             there, target = ((Fraction((place / "angle_deg").double()) - Fraction(own))
@@ -133,7 +133,7 @@ def _touched(web: Web, entry: Place) -> Iterator[Tuple[str, float]]:
         yield "sector", 1 - off / web.sector[1] if mass > 0 and web.sector[1] > 0 else 1.0
 
 
-def listed(claim: str, place: Place, rooms: Dict[str, float]) -> Claims:
+def active_limits(claim: str, place: Place, rooms: Dict[str, float]) -> Claims:
     """A list of the limits that are touched, those of which less than a share is left, each once.
 
     Of what nothing can be told the room is nan.
@@ -231,18 +231,18 @@ def castings(design: Place, answer: Place) -> List[Tuple[Place, Place]]:
     that say so. What is fixed is no choice."""
     own = list(zip(design / "webs", answer / "counterweights"))
     general = (design / "catalogue") or (design / "max_counterweights") or any(map(stocked, design / "webs"))
-    chosen = [pair for pair in own if general and not pair[0] / "fixed"]
+    pairs = [pair for pair in own if general and not pair[0] / "fixed"]
     for shaft, there in zip(design / "balance_shafts", answer / "balance_shafts"):
-        chosen += [pair for pair in zip(shaft / "webs", there / "counterweights") if stocked(pair[0])]
-    return chosen
+        pairs += [pair for pair in zip(shaft / "webs", there / "counterweights") if stocked(pair[0])]
+    return pairs
 
 
 def catalogue(design: Place, answer: Place) -> Claims:
     """Masses, holes and counts that there are; steps are not covered."""
     general = design / "catalogue"
     used: list[Number] = []
-    chosen = castings(design, answer)
-    for web, entry in chosen:
+    pairs = castings(design, answer)
+    for web, entry in pairs:
         mass, angle = (entry / "mass_kg").number(), (entry / "angle_deg").double()
         if mass.high <= 0:
             continue
@@ -260,7 +260,7 @@ def catalogue(design: Place, answer: Place) -> Claims:
         yield "catalogue", entry / "angle_deg", real(Fraction(SAME) - min(away)) if away else None, ONE
         if all(abs(mass - other).low > (mass * real(SAME)).high for other in used):
             used.append(mass)
-    fitted = sum((entry / "mass_kg").double() > 0 for _, entry in chosen)
+    fitted = sum((entry / "mass_kg").double() > 0 for _, entry in pairs)
     for most, count in ((design / "max_counterweights", fitted), (general / "max_part_numbers", len(used))):
         if most:
             yield "catalogue", most, most.number() - real(count), ONE

@@ -15,7 +15,7 @@ from verify_multipliers import Program
 from verify_nominal import fixed_alone
 from verify_numbers import ABOUT_ONE, ONE, SPECK, ZERO, Number, Place, largest, real, total
 from verify_values import Value, most, off_sizes
-from verify_weights import listed, usual_gap
+from verify_weights import active_limits, usual_gap
 
 #: price of the mass where it has none; rows keep their multipliers beside it
 FREE = Number(0, 0)
@@ -36,9 +36,9 @@ class WorstFront:
 
     def __init__(self, request: Place, machine: Machine) -> None:
         self.request, self.machine = request, machine
-        self.both = _program(request, machine, tuple(NAMES))
+        self.joint = _program(request, machine, tuple(NAMES))
         self.alone = {name: _program(request, machine, (name,)) for name in NAMES}
-        self.parts = [*self.both.parts.values()]
+        self.parts = [*self.joint.parts.values()]
 
     def peaks(self, there: Fitted) -> Peaks:
         """Of what is fitted, as they are weighed across the shaft, in the worst scenario."""
@@ -103,7 +103,7 @@ def worst_curve(request: Place, machine: Machine, curve: Place) -> Claims:
         lowest, proof = ends / f"smallest_{name}_lower_bound_{unit}", ends / "multipliers" / f"smallest_{name}"
         own = _of(proof, name)
         of = front.proven(front.alone[name], own, implied, {name: lowest.number(0.0)}) if proof else None
-        yield from _claimed(f"smallest_{name}", lowest, of, proof, implied, front.both.mixed)
+        yield from _claimed(f"smallest_{name}", lowest, of, proof, implied, front.joint.mixed)
 
 
 def _of(proof: Place, name: str) -> Place:
@@ -136,12 +136,12 @@ def _point(front: WorstFront, scale: Place, answer: Place) -> Claims:
     if answer / "balance_shafts_mass_kg":
         yield near("total_mass", answer / "balance_shafts_mass_kg", there.on_shafts_mass)
     bare = fixed_alone(machine, there)
-    worst, rest = ([Value(part, side, front.both.off) for part in front.parts] for side in (there, bare))
+    worst, rest = ([Value(part, side, front.joint.off) for part in front.parts] for side in (there, bare))
     rooms = yield from margins(answer / "counterweights", worst, rest, optimal)
     if machine.budget is not None:
         budget = float(machine.budget)
         rooms["max_total_mass"] = 1 - float(there.mass) / budget if budget > 0 else 0.0
-    yield from listed("active_limits", answer / "active_limits", rooms)
+    yield from active_limits("active_limits", answer / "active_limits", rooms)
     peaks, left = front.peaks(there), machine.responses(there.first)
     for name, unit in NAMES.items():
         co, counter = left[name]
@@ -172,8 +172,8 @@ def _corner(front: WorstFront, scale: Place, answer: Place, peaks: Peaks, optima
         most = (front.request / "accuracy" / "relative_gap").number(usual_gap(front.request / "machine"), least=0)
         yield "status", relative, most - relative.number() if relative else None, ONE
     implied = proof / "implied_max_mass_kg"
-    of = front.proven(front.both, multipliers, implied, corner) if multipliers else None
-    yield from of_both(_claimed("corner", proof / "force_N", of, multipliers, implied, front.both.mixed), proof)
+    of = front.proven(front.joint, multipliers, implied, corner) if multipliers else None
+    yield from of_both(_claimed("corner", proof / "force_N", of, multipliers, implied, front.joint.mixed), proof)
 
 
 def of_both(claims: Iterator[Claim], proof: Place) -> Claims:
@@ -198,10 +198,10 @@ def _mass(front: WorstFront, scale: Place, answer: Place, peaks: Peaks, there: F
         yield "mass_lower_bound", place, -least, ONE
         yield EVIDENCE, multipliers, None, ONE
     else:
-        of = front.proven(front.both, multipliers, implied, up_to, ONE) if multipliers else None
+        of = front.proven(front.joint, multipliers, implied, up_to, ONE) if multipliers else None
         of = None if of is None else of._replace(beyond=of.beyond - least, worth=place.number())
-        open_ended = front.both.mixed and of is not None and of.beyond.high < 0
-        yield from _claimed("mass_lower_bound", place, of, multipliers, implied, front.both.mixed)
+        open_ended = front.joint.mixed and of is not None and of.beyond.high < 0
+        yield from _claimed("mass_lower_bound", place, of, multipliers, implied, front.joint.mixed)
     for name, limit in limits.items():
         if limit:
             # where it is not told what is proven, nor is for which peaks
@@ -210,7 +210,7 @@ def _mass(front: WorstFront, scale: Place, answer: Place, peaks: Peaks, there: F
     first, size = front.parts[0], proof / "mass_yardstick_kg"
     if size and abs(size.number() - mass).low <= (mass * SPECK).high:
         yield near("yardstick", size, mass)
-    elif not (first.geared or first.exact.caps or front.both.mixed or len(front.parts) > 1):
+    elif not (first.geared or first.exact.caps or front.joint.mixed or len(front.parts) > 1):
         sizes = {name: (scale / f"{name}_{unit}").number() for name, unit in NAMES.items()}
         yield from light(first.exact, proof, sizes, there.mass)
     wide, gap = size.number(0.0), mass - place.number()

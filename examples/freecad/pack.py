@@ -13,11 +13,11 @@ def pack(archive: Path) -> None:
     """Write an archive of the folder as it belongs into `Mod`; equal files give equal bytes."""
     files = {path: path.relative_to(HERE) for path in sorted(WORKBENCH.rglob("*")) if path.is_file()}
     files[CLIENT] = Path(WORKBENCH.name, "freecad", "counterweight", CLIENT.name)
-    with ZipFile(archive, "w") as packed:
+    with ZipFile(archive, "w") as target:
         for path, place in files.items():
             if path.suffix != ".pyc":
                 # a file of no date
-                packed.writestr(ZipInfo(place.as_posix()), path.read_bytes(), ZIP_DEFLATED)
+                target.writestr(ZipInfo(place.as_posix()), path.read_bytes(), ZIP_DEFLATED)
 
 
 if __name__ == "__main__":

@@ -48,13 +48,13 @@ def faces_of(details: Json) -> List[Json]:
 def _face(face: Json, edges: Sequence[Json]) -> Json:
     surface, kind = face["surface"], face["surface"]["type"].lower()
     points = [edge[end] for edge in edges for end in ("startPoint", "midPoint", "endPoint")]
-    listed = {"points_m": points if len(points) <= _MOST_POINTS else []}
+    samples = {"points_m": points if len(points) <= _MOST_POINTS else []}
     if kind == "plane":
         normal = [value if face["orientation"] else -value for value in surface["normal"]]
         centre = [sum(values) / len(points) for values in zip(*points)]
-        return {"type": "plane", "centre_m": centre, "normal": normal, "area_m2": face["area"], **listed}
+        return {"type": "plane", "centre_m": centre, "normal": normal, "area_m2": face["area"], **samples}
     if kind != "cylinder":
-        return {"type": "other", **listed}
+        return {"type": "other", **samples}
     origin, axis, radius = surface["origin"], surface["axis"], surface["radius"]
     along = [sum((p - o) * a for p, o, a in zip(point, origin, axis)) for point in points]
     low, high = min(along), max(along)
@@ -69,7 +69,7 @@ def _face(face: Json, edges: Sequence[Json]) -> Json:
         "ends_m": [low, high],
         "angle_deg": 360.0 if whole else angle,
         "outer": face["orientation"],
-        **({} if whole else listed),
+        **({} if whole else samples),
     }
 
 
@@ -90,9 +90,9 @@ def machine_of(shaft: Json, description: Json) -> Json:
     rows = [throw.get("rows", []) for throw in description["machine"].get("throws", [])]
     if len(rows) != len(shaft["throws"]):
         raise SystemExit(f"the faces show {len(shaft['throws'])} throws, {len(rows)} are described")
-    shown = {name: shaft[name] for name in ("webs", "bearings", "unbalances")}
+    parts = {name: shaft[name] for name in ("webs", "bearings", "unbalances")}
     throws = [{**throw, "rows": on} for throw, on in zip(shaft["throws"], rows)]
-    return {**description, "machine": {"kind": "reciprocating", **description["machine"], **shown, "throws": throws}}
+    return {**description, "machine": {"kind": "reciprocating", **description["machine"], **parts, "throws": throws}}
 
 
 def main(document: str, workspace: str, element: str, machine: str = "") -> None:

@@ -88,19 +88,19 @@ class Balance(om.ExplicitComponent):  # type: ignore[misc]
 def problem(request: dict[str, Any], ask: Ask, kilograms: float) -> om.Problem:
     """So many kilograms of limits, shared out among the webs so that the peak is smallest."""
     count = len(request["machine"]["webs"])
-    made = om.Problem(reports=False)
-    made.model.add_subsystem("balance", Balance(request=request, ask=ask), promotes=["*"])
+    problem = om.Problem(reports=False)
+    problem.model.add_subsystem("balance", Balance(request=request, ask=ask), promotes=["*"])
     together = om.ExecComp(
         "together = sum(max_mass)", max_mass={"shape": count, "units": "kg"}, together={"units": "kg"}
     )
-    made.model.add_subsystem("limits", together, promotes=["*"])
-    made.model.set_input_defaults("max_mass", val=[kilograms / count] * count, units="kg")
-    made.model.add_design_var("max_mass", lower=1.0, upper=kilograms, ref=kilograms / count)
-    made.model.add_constraint("together", upper=kilograms, ref=kilograms)
-    made.model.add_objective("peak", ref=1e4)
-    made.driver = om.ScipyOptimizeDriver(optimizer="SLSQP", tol=1e-9, disp=False)
-    made.setup()
-    return made
+    problem.model.add_subsystem("limits", together, promotes=["*"])
+    problem.model.set_input_defaults("max_mass", val=[kilograms / count] * count, units="kg")
+    problem.model.add_design_var("max_mass", lower=1.0, upper=kilograms, ref=kilograms / count)
+    problem.model.add_constraint("together", upper=kilograms, ref=kilograms)
+    problem.model.add_objective("peak", ref=1e4)
+    problem.driver = om.ScipyOptimizeDriver(optimizer="SLSQP", tol=1e-9, disp=False)
+    problem.setup()
+    return problem
 
 
 def main() -> None:

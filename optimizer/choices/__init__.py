@@ -1,4 +1,4 @@
-"""Sets that counterweights are chosen from and that are not convex: one to a file, all searched in one way.
+"""Sets of counterweights that are not convex: one to a file, all with the same search.
 
-What is convex, discs and sectors, are the limits of a program (:mod:`optimizer.program.limits`).
+Convex sets, discs and sectors, are the limits of a program (:mod:`optimizer.program.limits`).
 """

@@ -48,7 +48,7 @@ def branch_and_bound(
 
     Parameters
     ----------
-    at_least : what the objective is known to come to.
+    at_least : lower bound of the objective.
     bounded : nodes and the bounds that they inherit -> what is proven of all that they lose, and what stays open of
         them, with its bound.
     children : what is open -> the nodes that it is divided into.

@@ -24,15 +24,15 @@ _ROUNDING = 1e-11
 
 @record(frozen=True)
 class CastingsBeside:
-    """Some webs take one of their options, the others any mass in a sector, or one that is 0 or no less than a least
-    one: those of balance shafts beside castings on the crankshaft, or the other way round."""
+    """Some webs take one of their options. The others take any mass in a sector, or one that is 0 or above a minimum.
+    Such are balance shafts beside castings on the crankshaft, or the other way round."""
 
     machine: Machine  # with all webs
     stock: Stock  # of those that take options
     castings: np.ndarray  # (K,) bool: those
     least: Real  # (K,) kg, of the others; 0 where there is none
     limits: Limits  # (K,)
-    lightest: bool  # of all that are optima, but for their share, the lightest is wanted
+    lightest: bool  # prefer the lightest of all that are optima, but for their share
 
     solved = True
 

@@ -32,7 +32,7 @@ class Stock(NamedTuple):
     angle_deg: Real  # (K, O), 0 where there is nothing
 
     def fitted(self, selection: np.ndarray) -> tuple[Real, Real]:
-        """Masses [kg] and angles [deg] of all webs (W,) with options chosen (K,)."""
+        """Masses [kg] and angles [deg] of all webs (W,) with a selection of options (K,)."""
         mass, angle = self.options.of(self.mass_kg, selection), self.options.of(self.angle_deg, selection)
         alike = self.options.alike
         return (mass, angle) if alike is None else alike.fitted(mass[alike.owner], angle[alike.owner])
@@ -48,7 +48,7 @@ class Castings(NamedTuple):
 
     @classmethod
     def of(cls, machine: Machine, objective: Objective) -> "Castings":
-        """Those of a machine as it is given."""
+        """Those of the unchanged machine."""
         paths = {path for path, _ in machine.catalogue_webs()}
         every = [(*place, k) for place, webs in machine.web_lists() for k in range(len(webs))]
         return cls(

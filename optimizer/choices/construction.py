@@ -1,4 +1,4 @@
-"""The set that counterweights are chosen from."""
+"""The feasible set of a task: options, minimum masses, or both."""
 
 import numpy as np
 
@@ -16,7 +16,7 @@ from optimizer.program.limits import Limits
 
 
 def feasible_set(task: Task, limits: Limits) -> FeasibleSet:
-    """What counterweights are chosen from: a catalogue, or any mass at any angle that is 0 or no less than a least one.
+    """The feasible set: a catalogue, or any mass at any angle that is 0 or no less than a least one.
 
     With balance shafts some webs may take castings, and the others any mass.
 
@@ -27,7 +27,7 @@ def feasible_set(task: Task, limits: Limits) -> FeasibleSet:
     Raises
     ------
     OutOfRange
-        where the options of a web cannot be told, or webs of a group are unlike.
+        where the options of a web are not determined, or webs of a group are unlike.
     """
     machine, lightest = task.space.machine, task.objective.least_mass
     if task.choice != "discrete":
@@ -48,7 +48,7 @@ def options_of(task: Task) -> Stock:
     Raises
     ------
     OutOfRange
-        where the options of a web cannot be told, or webs of a group are unlike.
+        where the options of a web are not determined, or webs of a group are unlike.
     """
     if task.space.machine is task.machine:
         return stock(task.machine)
@@ -67,7 +67,7 @@ def limits_beside_castings(task: Task, program: Problem, most: Real) -> Limits:
 
     Parameters
     ----------
-    most : (goals,) what the goals of some choice that keeps the ceilings come to; inf where none is known.
+    most : (goals,) values of the goals at some choice that keeps the ceilings; inf without such a choice.
     """
     castings, machine = Castings.of(task.machine, task.objective), task.space.machine
     limits = with_castings(program.limits, stock(machine, castings), castings.webs)

@@ -2,7 +2,7 @@
 
 The least mass spends what an optimum may be off on hundredths of a degree here and there. Plates of one kind that hold
 nearly the same are opened alike: as far as they go, or else as little as leaves an optimum. The other counterweights
-are chosen anew, and what is found is taken where it is within what is proven.
+are chosen anew, and the result replaces the optimum where it is within what is proven.
 """
 
 from collections.abc import Iterator, Sequence
@@ -149,7 +149,7 @@ def _opened(
 
     Parameters
     ----------
-    is_fixed : (K,) bool, webs that stay as they are or are opened so; the others are chosen anew.
+    is_fixed : (K,) bool, webs that stay as they are or are opened so; the others are free.
     """
     many, places = whole.subset(np.zeros(_TRIED, int)), np.concatenate([cluster.places for cluster in clusters])
     webs, size = plates.webs[places], [cluster.places.size for cluster in clusters]
@@ -181,7 +181,7 @@ def _opened(
 def _completion(
     many: Statement, plates: Plates, nodes: Real, is_fixed: np.ndarray, u: Complex, share: float, least_mass: bool
 ) -> Complex:
-    """Unbalances (N, K) with those that are not held chosen anew.
+    """Unbalances (N, K) with the best ones on webs that are not fixed.
 
     Parameters
     ----------

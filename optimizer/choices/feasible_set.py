@@ -10,11 +10,11 @@ from optimizer.program.statement import Statement
 
 
 class Subproblem(NamedTuple):
-    """One program whose best choice is wanted, and how closely and how long a search may look for it."""
+    """One program for a search of its best choice, with the target gap and the time limit of the search."""
 
     statement: Statement  # one program, no leading axes
-    points: Complex  # (M, K) kg m, its optimum of any masses, then choices that are known
-    at_least: float  # what the objective is known to come to
+    points: Complex  # (M, K) kg m, its optimum of any masses, then earlier choices
+    at_least: float  # lower bound of the objective
     relative_gap: float  # in units of the yardstick
     yardstick: float  # what gaps are relative to, in units of the objective
     time_limit_s: float
@@ -23,20 +23,20 @@ class Subproblem(NamedTuple):
 
 @record(frozen=True)
 class SearchResult:
-    """Where a search ended, and what is proven of all that may be chosen."""
+    """Where a search ended, and its proof about all choices."""
 
-    feasible: bool  # whether what was found keeps the ceilings
-    lower_bound: float  # of all that may be chosen, over omega^2; inf where it is proven that nothing may
+    feasible: bool  # whether the result keeps the ceilings
+    lower_bound: float  # of all choices, over omega^2; inf where it is proven that none is feasible
     nodes: int  # of the tree
     method: str
     proven: bool = False  # all equals were compared as well
-    ended: str | None = None  # "time", "size", "rounding" or "cuts" where that ended it before the asked gap
+    ended: str | None = None  # "time", "size", "rounding" or "cuts" where that ended it before the target gap
     rounds: int = 0  # programs over the turn whose choices were searched
     cuts: int = 0  # that the last of them had
 
 
 class Choice(NamedTuple):
-    """What a search has chosen."""
+    """The result of a search."""
 
     mass: Real  # (K,) kg
     angle: Real  # (K,) degrees

@@ -26,7 +26,7 @@ class MinimumMasses:
     machine: Machine
     least: Real  # (K,) kg, 0 where there is none
     limits: Limits
-    lightest: bool  # of all that are optima, but for their share, the lightest is wanted
+    lightest: bool  # prefer the lightest of all that are optima, but for their share
 
     solved = True
 

@@ -1,8 +1,8 @@
 """How far plates are opened in the lightest optimum, all but: a guess, about which tangents are laid.
 
 What coarse tangents call for is proven of nothing, but the responses are nearly right. They are kept, and so are webs
-without a plate; every plate is opened up to where one more kilogram metre costs what it is worth at a price of the
-responses. The price at which the plates make up the responses is found by Newton's steps on the concave dual
+without a plate. Every plate is opened up to where one more kilogram metre costs what it is worth at a price of the
+responses. Newton's steps on the concave dual give the price at which the plates make up the responses:
 
     max over p of Re(conj(h) . p) - sum_k m*_k(|s_k|),    s_k = sum_j H_jk p_j,    m*(s) = max_U s U - m(U).
 """
@@ -26,7 +26,7 @@ _ENOUGH = 1e-6
 #: prices that are this much apart, relative, tell how openings follow them
 _APART = 1e-6
 _NEAR = np.array([[1.0], [1.0 - _APART], [1.0 + _APART]])
-#: of what moves the responses by a smaller share of the most nothing is asked
+#: directions that move the responses by a smaller share of the most are left out
 _FLAT = 1e-10
 
 

@@ -21,7 +21,7 @@ _CLOSE = 1e-7
 
 
 class Relaxations(NamedTuple):
-    """What is found of N programs."""
+    """Points of N programs with their bounds."""
 
     unbalance: Complex  # (N, K) kg m
     multipliers: Multipliers  # (N, ...), of their bounds
@@ -35,7 +35,7 @@ def solved(
 
     Parameters
     ----------
-    share, gap : (N,) how far above the smallest objective an optimum may be, and the gap that is asked for.
+    share, gap : (N,) how far above the smallest objective an optimum may be, and the target gap.
     least_mass : the lightest of the optima, in place of any.
     clock : ends what is done one by one; of programs after that the point is 0, and nothing is proven.
     """

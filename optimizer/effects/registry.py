@@ -80,7 +80,7 @@ def problems_of(machine: Machine, needs: Sequence[str]) -> Iterator[FieldProblem
 
 
 class _Problems(dict[str, tuple[FieldProblem, ...]]):
-    """Fields that each effect by itself needs and a machine does not give; worked out when asked for."""
+    """Fields that each effect by itself needs and a machine lacks, computed at the first look."""
 
     def __init__(self, machine: Machine) -> None:
         super().__init__()

@@ -18,7 +18,7 @@ class GasCycle:
     layout: Layout
     forces: GasForces
     exact: bool  # kinematics, or cut off after the second order
-    traces: tuple[Trace, ...] = ()  # of the chambers whose pressure is given
+    traces: tuple[Trace, ...] = ()  # of the chambers with a table of pressures
 
     @cached_property
     def opens(self) -> tuple[Real, Real]:
@@ -78,7 +78,7 @@ class TorqueIntegrals:
     row_mean: Real  # (..., rows) N m
     mean: Real  # (...) N m
     fluctuation: Real  # (...) J
-    fluctuation_error: Real | None  # (...) J, where it has a closed form; else none is known without other panels
+    fluctuation_error: Real | None  # (...) J, of a closed form; None where only finer panels could say
     indicated_power: Real  # (...) W
     friction_power: Real  # (...) W
 

@@ -1,8 +1,8 @@
 """What a request with balance shafts chooses: counterweights on the crankshaft and, behind them, those on the shafts.
 
 The program gets one machine with all these webs. It is affine in the unbalance of a shaft that turns backwards only
-beside its mirror image at the x axis (:class:`optimizer.responses.response.Response`), so there the web of such a shaft
-stands for that; over all orders nothing is mirrored (:class:`optimizer.responses.curve.TurnResponse`).
+beside its mirror image at the x axis (:class:`optimizer.responses.response.Response`). So there the web of such a shaft
+stands for the mirror image. Over all orders nothing is mirrored (:class:`optimizer.responses.curve.TurnResponse`).
 """
 
 from collections.abc import Sequence
@@ -104,12 +104,12 @@ class Fitted(NamedTuple):
 def placement_of(
     machine: Machine, objective: Objective, mass_kg: Real, angle_deg: Real, vectors: Complex | None = None
 ) -> Fitted:
-    """What a program has chosen, shaft by shaft, beside the weights that are fixed.
+    """Counterweights from the variables of a program, shaft by shaft, beside the weights that are fixed.
 
     Parameters
     ----------
     mass_kg, angle_deg : (K + S,) of the webs of :func:`design_space`.
-    vectors : (K + S,) kg m, their unbalances where they are known.
+    vectors : (K + S,) kg m, their unbalances, if at hand.
     """
     if not balance_shafts(machine) and not any_fixed(machine):
         return fitted(machine, mass_kg, angle_deg, vectors)
@@ -121,7 +121,7 @@ def in_drawing(machine: Machine, objective: Objective, mass_kg: Real, angle_deg:
 
     Parameters
     ----------
-    mass_kg, angle_deg : (..., K + S) as a program has chosen them, of the webs of :func:`design_space`.
+    mass_kg, angle_deg : (..., K + S) of a program's solution, of the webs of :func:`design_space`.
     """
     mass_kg, angle_deg = beside(machine, mass_kg, angle_deg)
     if not balance_shafts(machine):
@@ -150,7 +150,7 @@ def fitted(machine: Machine, mass_kg: Real, angle_deg: Real, vectors: Complex | 
 
     Parameters
     ----------
-    vectors : (K + S,) kg m, their unbalances where they are known.
+    vectors : (K + S,) kg m, their unbalances, if at hand.
     """
     own, shafts = len(machine.webs), balance_shafts(machine)
     if vectors is None:

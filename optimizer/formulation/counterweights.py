@@ -29,8 +29,8 @@ _ABOVE_ENVELOPE = 1e-12
 def masses_and_angles(machine: Machine, unbalance: Complex, limits: Limits) -> tuple[Real, Real]:
     """Masses [kg] and angles [deg] of unbalances [kg m] (..., K), within the limits of the webs to the last digit.
 
-    What a sum or the rounding of an angle has left outside, or next to a limit, is brought to the limit; webs that are
-    to be alike are so to the last digit.
+    What a sum or the rounding of an angle has left outside, or next to a limit, is brought to the limit. Webs with
+    equal castings are equal to the last digit.
 
     Parameters
     ----------
@@ -108,7 +108,7 @@ def counterweights(
 
     Parameters
     ----------
-    vectors : (K,) kg m, their unbalances where they are known.
+    vectors : (K,) kg m, their unbalances, if at hand.
     """
     return _placed(machine, mass_kg, angles_deg, own_throws(machine), 1.0, vectors)
 

@@ -121,7 +121,7 @@ def weights(machine: Machine, objective: Objective) -> Mapping[str, Reals]:
 
 
 def with_weights_of(machine: Machine, objective: Objective) -> Objective:
-    """The objective with the weights given that a machine decides by default."""
+    """The objective, in which weights that the machine decides by default are numbers."""
     fields = (response.fields.weight for response in RESPONSES.values())
     usual: dict[Path, Reals] = {(field,): 1.0 / span(machine) for field in fields if getattr(objective, field) is None}
     return with_fields(objective, usual) if usual else objective

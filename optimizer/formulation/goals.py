@@ -1,6 +1,6 @@
 """From machine and objective to the problem: force and moment, bearing loads, bending moments.
 
-The first order of the machine as it is given is the case without quantities over the turn. This is the only place that
+The first order of the unchanged machine is the case without quantities over the turn. This is the only place that
 names the fields that ask for the whole turn; those of the first order are in
 :mod:`optimizer.formulation.formulate`.
 """
@@ -44,11 +44,11 @@ _USUAL = Fidelity()
 
 @record(frozen=True)
 class Case:
-    """A machine that the counterweights are to suit: the one that is given, or that of a scenario."""
+    """A machine that the counterweights are to suit: the unchanged one, or that of a scenario."""
 
     machine: Machine
     omega_squared: Reals  # (...) rad^2/s^2; one, or one for each of many machines of one shape
-    variants: tuple[tuple[Response, ...], ...]  # responses of the first order: as given, then with other masses
+    variants: tuple[tuple[Response, ...], ...]  # responses of the first order: nominal, then with other masses
     turn: tuple[WholeTurn, Layout] | None = None  # where the objective looks at the whole turn
     scenario: str | None = None
     weight: float = 1.0
@@ -69,9 +69,9 @@ class Limited:
 
 @record(frozen=True)
 class Goals:
-    """What is asked of the whole turn, or of several cases."""
+    """The goals of a request about the whole turn, or about several cases, as a program."""
 
-    program: Problem  # over omega^2 of the machine as it is given
+    program: Problem  # over omega^2 of the unchanged machine
     limited: tuple[Limited, ...]  # as in the program
     cases: tuple[Case, ...]
     #: the problem with all changes of masses among which a peak has its largest, wherever counterweights are
@@ -117,7 +117,7 @@ def formulate(
     Raises
     ------
     MissingInput
-        if specific loads are asked for and a bearing has no diameter or length.
+        if the objective has specific loads and a bearing has no diameter or length.
     """
     quantities: list[Quantity] = []
     response_weights = weights(machine, objective)

@@ -23,7 +23,7 @@ from optimizer.program.sensitivity import ShadowPrices
 from schemas.answer.limits import MachineLimit, WebLimit
 from schemas.machine.machine import Machine
 
-#: a limit counts as touched when what it limits is nearer than this share of it; optima may differ by
+#: a limit counts as touched when the quantity is nearer to it than this share of it. Optima may differ by
 #: 1e-6 of the objective, which is more than that of a mass
 TOUCHED = 1e-4
 #: a larger limit is none, kg
@@ -199,7 +199,7 @@ def largest_mass(machine: Machine) -> Real:
     allowed = [limit.mass(machine) for limit in entries if isinstance(limit, MassLimit)]
     mass = reduce(np.minimum, allowed) if allowed else np.full(len(machine.webs), np.inf)
     if any_fixed(machine):
-        # nothing is chosen there
+        # their counterweights are no variables
         mass = np.where(fixed_webs(machine), 0.0, mass)
     # null, or more than can be multiplied
     many = mass > _NO_LIMIT

@@ -43,9 +43,9 @@ class Prepared:
 
     A request whose fields hold columns (n,) is many designs of one shape: all arrays then have that leading axis.
 
-    request : what is asked of it.
+    request : outputs, objective and machine.
     machine : that of the request, of a scenario, or with the radii of what is cut from its plates.
-    objective : what is to be small; the usual where nothing is asked.
+    objective : what is to be small; the usual one by default.
     """
 
     request: Scene
@@ -90,7 +90,7 @@ class Prepared:
         return self.layout.omega**2
 
     def first_order(self, unbalance: Complex | None = None) -> Wrench:
-        """First-order force [N] and moment [N m], with counterweights if given (..., K) kg m."""
+        """First-order force [N] and moment [N m], without or with counterweights (..., K) kg m."""
         if unbalance is None:
             return self._bare
         # both at once, for another thread may ask too
@@ -103,7 +103,7 @@ class Prepared:
 
     @cached_property
     def _last(self) -> list[tuple[Complex, Wrench]]:
-        """The last counterweights asked for, and the first order with them: many outputs show the same."""
+        """The last counterweights with their first order: many outputs show the same."""
         return []
 
     @cached_property
@@ -155,7 +155,7 @@ class Prepared:
 
     @cached_property
     def responses(self) -> tuple[Response, ...]:
-        """What can be weighed, as responses to the unbalance of the counterweights that are chosen."""
+        """What can be weighed, as responses to the unbalance of counterweights that are variables."""
         plan, goal = self.laden, self.objective
         if plan is self.layout:
             return responses(plan, self.simulated.first_order, goal)

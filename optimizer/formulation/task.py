@@ -16,7 +16,7 @@ from schemas.request.scene import Fidelity
 
 
 class Demand(NamedTuple):
-    """How closely an optimum is wanted, and how long a search may take."""
+    """Target gap of an optimum, and time limit of its search."""
 
     relative_gap: float  # relative to the yardstick of the objective
     least_mass: bool  # take the least total mass among the optima
@@ -24,7 +24,7 @@ class Demand(NamedTuple):
 
 
 class ScenarioMachine(NamedTuple):
-    """A machine that the counterweights are to suit in place of the one that is given.
+    """A machine that the counterweights are to suit in place of the unchanged one.
 
     changes : of the request, where they are stated.
     """
@@ -37,9 +37,9 @@ class ScenarioMachine(NamedTuple):
 
 @record(frozen=True)
 class Task:
-    """Counterweights that are wanted of a machine.
+    """A machine, and the demands on its counterweights.
 
-    machine : as it is given, or with the radii of what is cut from its plates.
+    machine : unchanged, or with the radii of what is cut from its plates.
     scenarios : machines that count in its place, if any are stated.
     tolerances : what may be off; None where nothing is said of it.
     """
@@ -70,12 +70,12 @@ class Task:
         )
 
     def nominal(self, time_limit_s: float) -> "Task":
-        """The same of the machine as it is given alone, with nothing off."""
+        """The same of the unchanged machine alone, with nothing off."""
         return replace(self, scenarios=(), tolerances=None, time_limit_s=time_limit_s)
 
     @property
     def robust(self) -> bool:
-        """Whether more counts than the machine as it is given."""
+        """Whether more counts than the unchanged machine."""
         return bool(self.scenarios) or (self.tolerances is not None and self.tolerances.any)
 
     @property
@@ -85,7 +85,7 @@ class Task:
 
     @cached_property
     def choice(self) -> Choice | None:
-        """What counterweights are chosen from; None is any mass at any angle."""
+        """The kind of options for counterweights; None is any mass at any angle."""
         return self.machine.choice
 
     @cached_property
@@ -95,7 +95,7 @@ class Task:
 
     @property
     def demand(self) -> Demand:
-        """How closely its optimum is wanted."""
+        """Target gap and time limit."""
         return Demand(self.relative_gap, self.objective.least_mass, self.time_limit_s)
 
     @property

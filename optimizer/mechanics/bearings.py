@@ -5,7 +5,7 @@ The two planes through z do not know each other and obey the same formulas, so o
 Crank throws take part through the planes of their loads alone.
 
 Signs. A load is a force as the project counts it: on the frame, positive outward; the shaft carries it to the
-bearings. A bearing load is the force of the shaft on the bearing (the bearing pushes back with its negative), so that
+bearings. A bearing load is the force of the shaft on the bearing (the bearing pushes back with its negative). So
 at every instant the bearing loads have the sum of the loads and their couple about any plane. Both may be divided by
 omega^2, as everywhere: kg m instead of N.
 
@@ -34,9 +34,9 @@ _COINCIDENT = 1e-9
 def simple_spans(bearing: Real, position: Real, load: Complex) -> Complex:
     """Bearing loads of a shaft hinged at every intermediate bearing: statically determinate.
 
-    Each span carries its own loads to its two bearings by the lever rule. Loads beyond an outermost bearing are
-    carried by the end span next to them as an overhanging beam, which presses on the outer bearing with more than the
-    load and lifts the inner one.
+    Each span carries its own loads to its two bearings by the lever rule. The end span carries loads beyond an
+    outermost bearing as an overhanging beam: it presses on the outer bearing with more than the load and lifts the
+    inner one.
 
     Parameters
     ----------
@@ -161,7 +161,7 @@ def _arms(bearing: Real, position: Real, station: Real, reaction: Real, load: Re
 class _Spans(NamedTuple):
     """Loads on the spans between neighbouring bearings in rising z; an end span has its overhang with it."""
 
-    rank: NDArray[np.intp] | None  # (..., B) where each bearing as given stands in rising z; None where all do so
+    rank: NDArray[np.intp] | None  # (..., B) rank of each bearing in rising z; None where all are in that order
     length: Real  # (..., B-1, 1) m
     carries: Real  # (..., B-1, L) 1 for the span that has the load, else 0
     #: (2, ..., B-1, L) m, from the load to the right bearing, and from the left bearing to the load; negative on the

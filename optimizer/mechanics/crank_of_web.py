@@ -57,7 +57,7 @@ class _Cranks(NamedTuple):
     throws: tuple[int | None, ...]  # (webs,)
 
 
-# of a machine that is asked about again and again; of few, for large ones are a third of a megabyte
+# of machines that recur; of few, for large ones are a third of a megabyte
 @lru_cache(maxsize=16)
 def _of_places(throws: tuple[float, ...], webs: tuple[float, ...], stated_throws: tuple[int | None, ...]) -> _Cranks:
     fractions, own = _shares(throws, webs, stated_throws), dict[int, int]()

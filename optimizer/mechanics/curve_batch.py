@@ -1,28 +1,21 @@
-"""Curves of several forces of the rows of one machine, so that all that is asked of them is searched together.
+"""Curves of several forces of the rows of one machine, so that one search serves all.
 
-Whatever is asked for at an angle, the rows are expanded about it once, and each force is read from that once.
+The rows are expanded about an angle once, whatever the forces, and each force is read from that expansion.
 """
 
 from itertools import accumulate, chain, pairwise
-from typing import TYPE_CHECKING
 
 import numpy as np
 
-from optimizer.mechanics.curve_series import CurveSeries
+from optimizer.mechanics.curve_series import CurveSeries, SeriesCurves
 from optimizer.mechanics.whole_turn import TurnCurves
-from optimizer.numerics.arrays import Complex, Real
 from optimizer.numerics.memoization import cached_property
 from optimizer.numerics.records import record
-from optimizer.responses.floors import Floors
 from optimizer.responses.piecewise_cubics import Index, Pieces
-
-if TYPE_CHECKING:
-    from optimizer.responses.kernel.motion import Motion
-    from optimizer.responses.kernel.parts import Best, Cubics, Members
 
 
 @record(frozen=True)
-class CurveBatch:
+class CurveBatch(SeriesCurves):
     """Curves of one turn of one machine, those of one part after those of another."""
 
     parts: tuple[TurnCurves, ...]
@@ -42,22 +35,6 @@ class CurveBatch:
         for part, ends in zip(self.parts, pairwise(self.first.tolist()), strict=True):
             part.take(pieces, slice(*ends))
         return pieces
-
-    def cubics(self, curve: Index, piece: Index, centre: Real, half: Real) -> Complex:
-        """Series about centres (m,) within pieces."""
-        return self._series.cubics(curve, piece, centre, half)
-
-    def values(self, curve: Index, piece: Index, angle: Real) -> Complex:
-        """The curves at angles (m,) within pieces, ends included."""
-        return self._series.values(curve, piece, angle)
-
-    def search(self, cubics: "Cubics", members: "Members", best: "Best", motion: "Motion | None" = None) -> Complex:
-        """Peaks of the curves, or of one of them in motion."""
-        return self._series.search(cubics, members, best, motion)
-
-    def circles(self, cubics: "Cubics", members: "Members", motion: "Motion | None" = None) -> Floors:
-        """The smallest circles around the curves, or around one of them in motion."""
-        return self._series.circles(cubics, members, motion)
 
     @cached_property
     def _series(self) -> CurveSeries:

@@ -1,6 +1,7 @@
 """Series of curves about angles within pieces of the turn: all rows are expanded about an angle once, whatever curves
 ask for it."""
 
+from abc import ABC, abstractmethod
 from functools import cache
 from itertools import repeat
 from types import ModuleType
@@ -50,10 +51,10 @@ class CurveSeries:
 
     def over(self, points: RowSeries | None, bounds: RowSeries | None, half: Real) -> tuple[Complex, Real, Real]:
         """Coefficients (J, P, order + 1) over the angles of series, in units of half widths (N, P); by bounds what they
-        leave out (J, P), and of both the size (J,) of what is added up. Nothing of what is not given."""
+        leave out (J, P), and of both the size (J,) of what is added up. Empty for a series that is None."""
         entry = turn_kernel()
         series, nothing = points or bounds, repeat((entry.NOTHING, None))
-        assert series is not None  # one of both is given
+        assert series is not None  # at least one is there
         rows, kinds = series.rows, entry.NO_KINDS if series.kinds is None else series.kinds.places
         functions = (nothing if series is None else series.functions(self._has_gas) for series in (points, bounds))
         results, order = [], -1 if bounds is None else bounds.order
@@ -190,3 +191,28 @@ def forces(series: RowSeries, reading: Reading, bounded: bool = False) -> Comple
     middle, most, _ = curves.over(points, bounds, np.ones((designs, series.centre.shape[1])))
     coefficients = most if bounded else middle
     return coefficients.reshape(designs, rows, *coefficients.shape[1:])
+
+
+class SeriesCurves(ABC):
+    """Curves that are read from a series: the source of a search for peaks or circles."""
+
+    @property
+    @abstractmethod
+    def _series(self) -> CurveSeries: ...
+
+    def cubics(self, curve: Index, piece: Index, centre: Real, half: Real) -> Complex:
+        """Taylor polynomials (m, 4) about centres (m,) rad within pieces; the process that counts is that of the
+        piece."""
+        return self._series.cubics(curve, piece, centre, half)
+
+    def values(self, curve: Index, piece: Index, angle: Real) -> Complex:
+        """The curves at angles (m,) rad within pieces, ends included."""
+        return self._series.values(curve, piece, angle)
+
+    def search(self, cubics: "Cubics", members: "Members", best: "Best", motion: "Motion | None" = None) -> Complex:
+        """Peaks of the curves, or of one of them in motion."""
+        return self._series.search(cubics, members, best, motion)
+
+    def circles(self, cubics: "Cubics", members: "Members", motion: "Motion | None" = None) -> Floors:
+        """The smallest circles around the curves, or around one of them in motion."""
+        return self._series.circles(cubics, members, motion)

@@ -205,7 +205,7 @@ def _acts(cylinder: Cylinder, side: str) -> bool:
 
 
 def _has_gas(cylinder: Cylinder, side: str) -> bool:
-    """Whether any of the data of a cycle is given for a side."""
+    """Whether a side has any of the data of a cycle."""
     return any(value is not None for value in _state(cylinder, side))
 
 
@@ -239,7 +239,7 @@ def _areas(cylinder: Cylinder) -> tuple[float | None, float | None]:
 
 
 def _missing(cylinder: Cylinder) -> Iterator[tuple[str, str]]:
-    """Fields that are missing, and why they are needed where that is not plain."""
+    """Fields that are missing, with the reason why a computation needs them where it is not plain."""
     head, crank = _areas(cylinder)
     if head is None:
         yield "bore_m", ""
@@ -271,6 +271,6 @@ def _side(cylinder: Cylinder, side: str, area: float | None) -> list[float | Non
     indication = _indicated(cylinder, side) is not None
     if _acts(cylinder, side) and not indication:
         return [area, *_state(cylinder, side), 1.0]
-    # an open side: ambient pressure all the way round, unless it is given; the other numbers are not used
+    # an open side: ambient pressure all the way round, also by default; the other numbers are not used
     ambient = 0.0 if indication or _is_none(area) else cylinder.ambient_pressure_Pa
     return [area, ambient, ambient, 1.0, 2.0, 2.0, 0.0]

@@ -1,7 +1,7 @@
 """Forces of the rows of many designs over the pieces of their turns, those of several readings made together.
 
-What they are made of is large, and is let go a few designs after it was made: so all readings that are asked for sooner
-or later are read of it then.
+The expansions of the rows are large, and are let go a few designs later: so all readings that anybody needs sooner
+or later are made at once.
 """
 
 from dataclasses import dataclass
@@ -26,7 +26,7 @@ class DesignForces:
     """Forces of the rows of N designs over P pieces.
 
     centre, half : (N, P) rad.
-    readings : that are made with the first that is asked for.
+    readings : of the forces, which are made together.
     """
 
     rows: RowData

@@ -1,7 +1,7 @@
 """Counterweights that are cut from a plate, by half of their opening: unbalance, mass, inertia.
 
 A plate has a thickness t and a density rho, and lies between an inner and an outer radius R1, R2. Of all its parts the
-outermost along the direction of the unbalance have the longest lever, so the lightest counterweight is what lies beyond
+outermost along the direction of the unbalance have the longest lever. So the lightest counterweight is the part beyond
 a chord; one that is bounded by two edges through the shaft is an annular sector. Of both the mass is a convex function
 of the unbalance: one more kilogram metre needs dm/dU, the reciprocal of the lever of what is added.
 
@@ -140,7 +140,7 @@ class Segment(Plate):
         total = np.sqrt(apart) * _sum_of_halves(size)
         half = np.where(size > 1.0, 0.5 * (total + apart / total), np.cbrt(cube))
         result = np.minimum(np.arcsin(np.minimum(half / self.outer, 1.0)), self.most)
-        # at a right angle an opening is no better known than to 1e-8, but a full plate is full
+        # near a right angle an opening has an error of 1e-8, but a full plate is full
         return np.where(unbalance >= self.unbalance(self.most), self.most, result)
 
     def chord(self, half_angle: Reals) -> Real:

@@ -37,7 +37,7 @@ def fixed_mass(machine: Machine) -> Real:
 
 
 def beside(machine: Machine, mass_kg: Real, angle_deg: Real) -> tuple[Real, Real]:
-    """Masses [kg] and angles [deg] of chosen counterweights (..., K), with the fixed weights in their places.
+    """Masses [kg] and angles [deg] of free counterweights (..., K), with the fixed weights in their places.
 
     Of webs on balance shafts, which stand behind those of the crankshaft, nothing is fixed.
     """
@@ -55,7 +55,7 @@ def beside(machine: Machine, mass_kg: Real, angle_deg: Real) -> tuple[Real, Real
 
 
 def laden(layout: Layout, machine: Machine) -> Layout:
-    """The layout with the fixed weights among its rotating masses: what counterweights are chosen for."""
+    """The layout with the fixed weights among its rotating masses: the free counterweights balance both."""
     if not any_fixed(machine):
         return layout
     there = np.flatnonzero(fixed_webs(machine))

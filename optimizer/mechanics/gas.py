@@ -1,4 +1,4 @@
-"""Gas forces: a four-process cycle in every chamber, with its switching angles and its work; or a pressure as given.
+"""Gas forces: a four-process cycle in every chamber, with its switching angles and its work; or a table of pressures.
 
 Chamber axis: head and crank side of the first cylinder of the row, then of the next on the same rod (tandem or
 stepped), so that even ones are head sides; rows with fewer cylinders have chambers without area. A chamber's own

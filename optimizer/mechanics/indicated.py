@@ -1,8 +1,8 @@
 """Indicated pressures: a table over a cycle of one or two turns in place of the cycle of four processes.
 
 A table counts from an outer dead centre of its row, so that its angle differs from the row's own crank angle by whole
-turns. Between its entries the pressure is linear, and from the last one on to the first of the next cycle: no kinks
-but at the entries, which are breaks of the turn (:mod:`whole_turn`).
+turns. Between its entries the pressure is linear, and also from the last entry to the first of the next cycle. Kinks
+are only at the entries, which are breaks of the turn (:mod:`whole_turn`).
 """
 
 from collections.abc import Sequence

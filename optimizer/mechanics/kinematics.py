@@ -136,9 +136,9 @@ def steep_angles(rod_ratio: Real) -> Real:
     """Own crank angles that enclose the steep motion of a rod hardly longer than its crank, rad (..., 84).
 
     Within s = sqrt(1 - lam^2) of 90 and 270 degrees the acceleration shoots up to r w^2 / s: cos beta has zeros at
-    the complex angles s off the axis. Angles whose distances to there are in geometric progression, down to s/4, keep
-    every panel between them about as far from the zeros as it is wide, so that quadrature converges alike for any
-    rod; nan where an angle is not needed.
+    the complex angles s off the axis. The distances of these angles to there are in geometric progression, down to s/4.
+    So every panel between them is about as far from the zeros as it is wide, and quadrature converges equally for any
+    rod; nan where fewer angles suffice.
     """
     scale = np.sqrt((1.0 - rod_ratio) * (1.0 + rod_ratio))[..., None]
     distance = 0.5 / 2.5 ** np.arange(21.0)

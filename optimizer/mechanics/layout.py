@@ -42,8 +42,8 @@ class Reciprocating:
     crank_direction: Complex
     axis: Complex
     position: Real  # m
-    rod_ratio: Real  # r/l; 0 for an infinite rod, nan where the rod is not given
-    #: r/l - rod_ratio, what rounding the quotient took off; None where that is not known
+    rod_ratio: Real  # r/l; 0 for an infinite rod, nan without a rod
+    #: r/l - rod_ratio, the rounding error of the quotient; None without one
     rod_ratio_rest: Real | None = None
 
     @property
@@ -88,7 +88,7 @@ class Layout:
 
     @property
     def central(self) -> bool:
-        """Whether couples are reported about the plane in which they are summed, as where none is given."""
+        """Whether couples are reported about the plane in which they are summed, which is the default."""
         return self.reference_plane is self.centre_plane
 
 
@@ -96,8 +96,8 @@ class Layout:
 def layout(machine: ReciprocatingMachine | ScrollMachine) -> Layout:
     """Arrays of one machine, or of many; rods are shared between crosshead and pin here.
 
-    A field may hold a column (N,), one value for each of N machines that differ in nothing else; what depends on it
-    then has the leading axis (N,), the rest has none. Without columns there are no leading axes.
+    A field may hold a column (N,), one value for each of N machines that differ in nothing else. Figures that depend on
+    it then have the leading axis (N,), the others none. Without columns there are no leading axes.
     Source: lecture slides on compressors and slides on balancing (share of the rod).
     """
     if isinstance(machine, ScrollMachine):

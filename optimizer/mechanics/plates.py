@@ -1,4 +1,4 @@
-"""Plates side by side: what is asked of all of them at once, those of one shape together."""
+"""Plates side by side: functions of all of them at once, those of one shape together."""
 
 from collections.abc import Callable, Sequence
 

@@ -11,7 +11,7 @@ from optimizer.numerics.records import record
 
 @record(frozen=True)
 class RodForces:
-    """Forces that a piston force sends into the mechanism, over shaft angles (..., rows, T); worked out when asked for.
+    """Forces that a piston force sends into the mechanism, over shaft angles (..., rows, T): properties.
 
     Source: lecture slides on compressors; design calculation of the 2D12, 2-21 and 2-22.
     """

@@ -1,7 +1,7 @@
 """Moment about the crankshaft with which the frame rolls: what the rows leave on it, and what balance shafts change.
 
 A piston that presses on its guide, and one that is driven, leave s N h on the frame, which is s times the torque of
-the row; the mean is what the machine takes up or gives, and only the rest shakes. An unbalance v of a shaft at
+the row. The mean is what the machine takes up or gives, and only the rest shakes. An unbalance v of a shaft at
 p = x + jy that turns rho times puts F = rho^2 v e^{j s rho theta} (over omega^2) on its bearings, and with it
 Im(conj(p) F) about the crankshaft. What turns with the crankshaft has no lever. Counter-clockwise is positive.
 

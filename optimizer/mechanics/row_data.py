@@ -41,7 +41,7 @@ class RowData:
     expansion_exponent: Real | None = None
     compression_exponent: Real | None = None
     closed: Real | None = None
-    traces: tuple[Trace, ...] = ()  # of chambers whose pressure is given
+    traces: tuple[Trace, ...] = ()  # of chambers with a table of pressures
 
     def of_designs(self, designs: slice) -> "RowData":
         """Data of some of the designs alone."""
@@ -98,7 +98,7 @@ def row_data(
     ----------
     friction : (..., R) N, of the rows; None where there is none.
     chambers : of the rows; None where there is no gas.
-    traces : of chambers whose pressure is given.
+    traces : of chambers with a table of pressures.
     """
     rows = layout.reciprocating
     leading = layout.omega.shape

@@ -1,5 +1,5 @@
-"""Rows of one machine that differ by their phase alone, as those of equal throws do: what one of them does all over
-the revolution, another does some pieces of it later.
+"""Rows of one machine that differ by their phase alone, as those of equal throws do. One of them repeats what another
+does over the revolution some pieces later.
 
 Shapes: R rows of K kinds, P pieces.
 """
@@ -60,8 +60,8 @@ def row_kinds(rows: RowData, centre: Real, half: Real) -> RowKinds | None:
     """The kinds of the rows of one machine over pieces about centres (P,) rad, of half widths (P,); None where no two
     rows are of one kind.
 
-    Pieces have to repeat where a kind does: as they begin where something jumps or has a kink, those of a machine
-    whose throws are all equal and evenly spaced do. Angles are equal that differ by their rounding.
+    Pieces have to repeat where a kind does. They begin where something jumps or has a kink, so those of a machine
+    with equal throws at even angles repeat. Angles are equal that differ by their rounding.
     """
     if rows.designs != 1 or rows.traces:
         return None

@@ -1,8 +1,8 @@
 """Work of the rows on the shaft from one angle to another, in closed form, and what a flywheel takes up of it.
 
-With the exact motion the lever of a row is dx/dphi, so that its torque does the work of the piston force: of m a that
-is m c^2 / 2, of the friction the force times the way, of the gas -integral of p dV over the processes of a chamber.
-A motion cut off after the second order has levers that are not its own, and tables of pressures have no such form: for
+With the exact motion the lever of a row is dx/dphi, so that its torque does the work of the piston force. The work of
+m a is m c^2 / 2, of the friction force times way, of the gas -integral of p dV over the processes of a chamber.
+A motion cut off after the second order has levers that are not its own, and tables of pressures have no such form. For
 those there is the quadrature of :mod:`optimizer.mechanics.turn`.
 """
 
@@ -35,7 +35,7 @@ class RowWork:
 
     friction : (..., rows) N; None where there is none.
     chambers : of the rows, none of them with a table of pressures; None where there is no gas.
-    indicated : work put into the gas of every chamber in one turn (..., rows, C) J, where it is known already.
+    indicated : work put into the gas of every chamber in one turn (..., rows, C) J, if at hand.
     """
 
     layout: Layout
@@ -55,7 +55,7 @@ class RowWork:
 
         It repeats with every turn.
         """
-        # the compiler is loaded when it is first needed
+        # the compiler is loaded at its first use
         from optimizer.mechanics.kernel.chamber_values import work_values
 
         moving, rows = motion(self.layout, angle), row_table(self.layout)

@@ -2,8 +2,8 @@
 
 A peak is convex in the masses, so that it is largest at a corner of what they may be. Along a direction across the
 shaft, at one angle of the shaft, a row adds m r cos(direction - axis) cos(shaft - phase): the worst signs are those of
-one of two factors, times those of the other. The direction and the shaft each pass finitely many places where signs
-change, so of 2^n corners a few n^2 are left, and the largest peak is at one of them: exact.
+of one of two factors, times those of the other. The direction and the shaft each pass finitely many places where signs
+change. So of 2^n corners a few n^2 are left, and the largest peak is at one of them: exact.
 """
 
 from dataclasses import replace

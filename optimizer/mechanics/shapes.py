@@ -60,7 +60,7 @@ def fitted(machine: Machine, half_angle: Real) -> Machine:
 
 @remembered
 def _cut_machine(machine: Machine) -> Callable[[tuple[float, ...]], Machine]:
-    """Fits the plates of a machine; what was judged last is the very machine that is told, with all known of it."""
+    """Fits the plates of a machine; the machine of the last verdict is also that of the answer, with its properties."""
     cut = _side_by_side(tuple(web.envelope for web in machine.webs))
 
     @lru_cache(maxsize=4)

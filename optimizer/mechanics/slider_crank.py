@@ -48,7 +48,7 @@ def acceleration_harmonic(order: int, rod_ratio: Real) -> Real:
     return _even_harmonic(order, lam)
 
 
-# of a machine that is asked about again and again
+# of machines that recur
 @lru_cache(maxsize=256)
 def _of_machine(order: int, rod_ratios: tuple[float, ...]) -> Real:
     """The same of the rows of one machine, of an even order; nobody writes to it."""

@@ -7,12 +7,12 @@ brackets peaks with.
 
 import math
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from numpy.polynomial.legendre import leggauss
 
-from optimizer.mechanics.curve_series import CurveSeries, forces
+from optimizer.mechanics.curve_series import CurveSeries, SeriesCurves, forces
 from optimizer.mechanics.design_forces import ORDER, DesignForces
 from optimizer.mechanics.indicated import SLIVER, TURN, Trace, entries, turns_of
 from optimizer.mechanics.kinematics import angle_ahead, steep, steep_angles
@@ -25,13 +25,7 @@ from optimizer.mechanics.turn import Turn, panels
 from optimizer.numerics.arrays import Complex, Real, all_true, spread
 from optimizer.numerics.memoization import cached_property
 from optimizer.numerics.records import record
-from optimizer.responses.floors import Floors
 from optimizer.responses.piecewise_cubics import Index, Pieces
-
-if TYPE_CHECKING:
-    from optimizer.responses.kernel.motion import Motion
-    from optimizer.responses.kernel.parts import Best, Cubics, Members
-
 
 #: rad, width of pieces that no break shortens
 _WIDEST = np.deg2rad(5.0)
@@ -80,7 +74,7 @@ class WholeTurn:
     centre, half : (N, P) rad; half is 0 where breaks coincide.
     turns : of the shaft, after which all repeats.
     means : (N, R) N, of the tangential forces, where there is a closed form.
-    squared : whether mean squares are asked for: what bounds their quadratures bounds the pieces too.
+    squared : whether mean squares are computed: what bounds their quadratures bounds the pieces too.
     readings : of the forces of many designs, that columns will need.
     single : whether it is of a machine by itself. Designs of a sweep are worked out as beside others, however many.
     """
@@ -137,7 +131,7 @@ class WholeTurn:
 
     @cached_property
     def forces(self) -> DesignForces | None:
-        """Forces of the rows of many designs; None where it is not known which will be asked for."""
+        """Forces of the rows of many designs; None without a list of readings."""
         if len(self.centre) == 1 or self.squared or not self.readings:
             return None
         return DesignForces(self.rows, self.centre, self.half, self.readings)
@@ -208,7 +202,7 @@ def whole_turn(
 
 
 @record(frozen=True)
-class TurnCurves:
+class TurnCurves(SeriesCurves):
     """N C curves: sums of one force of the rows.
 
     reading : which.
@@ -301,7 +295,7 @@ class TurnCurves:
     @cached_property
     def _parts(self) -> Real:
         """Number of equal parts of every piece (N, P) in the quadrature: the more, the more is left out there."""
-        # the compiler is loaded when it is first needed
+        # the compiler is loaded at its first use
         from optimizer.mechanics.kernel.quadrature import equal_parts
 
         number, size = np.empty(self.whole.half.shape), self.pieces.size.reshape(self.weights.shape[:2])
@@ -353,26 +347,10 @@ class TurnCurves:
         series = RowSeries(self.whole.rows, angle, None, within, 0, kinds=kinds)
         return self._series.over(series, None, within)[0].reshape(*self.weights.shape[:2], -1)
 
-    def cubics(self, curve: Index, piece: Index, centre: Real, half: Real) -> Complex:
-        """Series about other centres (m,) within pieces; the process that counts is that of the piece."""
-        return self._series.cubics(curve, piece, centre, half)
-
-    def values(self, curve: Index, piece: Index, angle: Real) -> Complex:
-        """The curves at angles (m,) within pieces, ends included."""
-        return self._series.values(curve, piece, angle)
-
     def crossings(self, level: Real) -> tuple[Real, Real]:
         """Shaft angles (N C, n) rad at which scalars cross levels (N C,), jumps included, and what the integral up to
         there may be off by (N C,); where a curve has fewer than another its angles are 0."""
         return self._series.crossings(self.pieces.cubics, compact(level))
-
-    def search(self, cubics: "Cubics", members: "Members", best: "Best", motion: "Motion | None" = None) -> Complex:
-        """Peaks of the curves, or of one of them in motion."""
-        return self._series.search(cubics, members, best, motion)
-
-    def circles(self, cubics: "Cubics", members: "Members", motion: "Motion | None" = None) -> Floors:
-        """The smallest circles around the curves, or around one of them in motion."""
-        return self._series.circles(cubics, members, motion)
 
     @cached_property
     def _series(self) -> CurveSeries:

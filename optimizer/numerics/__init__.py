@@ -1,1 +1,1 @@
-"""Arrays, compiled loops, circles, polynomials: what any of the rooms above counts with."""
+"""Arrays, compiled loops, circles, polynomials: the tools of all rooms above."""

@@ -1,7 +1,7 @@
 """How inner loops are compiled: once for an installation, dividing as numpy does.
 
 Most of a kernel's time to compile is spent on what surrounds it: an entry from Python and one from C, counts of
-references to every array that is handed on. So entries and inner functions are told apart. What is called with numbers
+references to every array that is handed on. So entries and inner functions differ. What is called with numbers
 that are written out is compiled for each of them; numpy's integers are of one type.
 """
 
@@ -14,9 +14,9 @@ from optimizer.numerics.loading import MachineCode
 
 # the third level takes 7 % more of the compiler's time; curves of sweeps are faster by 1 % with it, nothing else is
 config.OPT = type(config.OPT)(2)
-# nor are vectors of 512 bits asked for: answers take as long with them, and sweeps at most 3 % less; and numba looks at
-# processor features once, when the first function of any package is declared: whoever imports OpenMDAO before this one
-# would compile every kernel once more
+# vectors of 512 bits stay off: answers take as long with them, and sweeps at most 3 % less. Numba looks at processor
+# features once, when the first function of any package is declared. Who imports OpenMDAO before this module would then
+# compile every kernel once more
 
 
 def _cached(**options: bool) -> Callable[[Any], Any]:

@@ -26,7 +26,7 @@ def smallest_circle(points: Complex) -> Circle:
     """The smallest circle around points (n,), n >= 1, complex.
 
     From the circle of the last support and the farthest point outside it to the smallest circle of those few, which is
-    always larger: so no support returns, and it ends (the simplex method of this problem). Three or four points have
+    always larger. So no support returns, and it ends (the simplex method of this problem). Three or four points have
     few pairs and triples, and the smallest circle of one that holds all is theirs.
     """
     from optimizer.numerics.kernel.circle import smallest

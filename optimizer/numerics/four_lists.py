@@ -1,7 +1,7 @@
 """Sums of four lists of points that come near to a point, among more than can be compared.
 
-Of two lists those pairs are kept that come about to a share of what is wanted, of the other two those that come about
-to the rest, and of these the nearest to one another (Schroeppel and Shamir 1981, Wagner 2002).
+Pairs of two lists are kept whose sums are near a share of the target, and pairs of the other two whose sums are near
+the rest. Of these the nearest to one another are the result (Schroeppel and Shamir 1981, Wagner 2002).
 """
 
 from collections.abc import Sequence
@@ -19,7 +19,7 @@ _SIDES = 3
 
 
 def nearest_sums(lists: Sequence[Real], about: Real, target: Real) -> np.ndarray:
-    """Which points of four lists, (n, d) each, have sums that come nearest to what is wanted (d,): (4, M) numbers.
+    """Points of four lists, (n, d) each, whose sums are nearest to a target (d,): their numbers (4, M).
 
     Parameters
     ----------
@@ -36,7 +36,7 @@ def nearest_sums(lists: Sequence[Real], about: Real, target: Real) -> np.ndarray
 
 def _met(left: Real, right: Real) -> np.ndarray:
     """Which points are near to one another (2, k): about as many as are kept, if they scatter as normal ones do."""
-    # the compiler is loaded when it is first needed
+    # the compiler is loaded at its first use
     from optimizer.numerics.kernel.meeting import met
 
     if not (len(left) and len(right)):

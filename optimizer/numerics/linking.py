@@ -2,7 +2,7 @@
 
 Numba optimises every function for itself, makes machine code of it, and optimises it again in all that it is linked
 into. Of most of ours nobody asks for machine code, so both wait until somebody does: a sixth of the time to compile.
-Before they are linked functions take the first level alone: what a higher one finds is found once linked.
+Before linking functions take the first level alone: a higher one does its work once, after linking.
 Another sixth is saved as loops are put into lanes, but not written out several times: webs, rows and coefficients are
 few.
 """
@@ -17,7 +17,7 @@ from optimizer.numerics.loading import Library
 
 
 class _Linked(Library):
-    """A function and all that it calls, optimised when its machine code is first asked for."""
+    """A function and all that it calls, optimised at the first request for its machine code."""
 
     _is_final = False
 

@@ -31,7 +31,7 @@ else:
 
 
 def remembered(function: Callable[[Machine], Result]) -> Callable[[Machine], Result]:
-    """The function, which remembers what it made of the last machine that it was given.
+    """The function, which remembers its result for the last machine.
 
     Machines are frozen, so that the very same one has the same of everything; whoever gets an array writes nothing
     to it. So are the parts of a machine as arrays.

@@ -11,7 +11,7 @@ from schemas.machine.balance_quality import BalanceQuality, GradeReached, Gradin
 
 
 def balance_quality(scene: Prepared, unbalance: Complex | None) -> GradeReached | None:
-    """Of one machine, without and with counterweights (webs,) kg m; None where nothing is asked of it."""
+    """Of one machine, without and with counterweights (webs,) kg m; None for a machine without a grade."""
     quality = scene.machine.balance_quality
     if quality is None:
         return None

@@ -70,7 +70,7 @@ def cautions(
 
     Parameters
     ----------
-    fields, proven : of the answer that has been made so far; what is proven only where counterweights were chosen.
+    fields, proven : of the answer so far; proofs only in an answer with an optimum.
     """
     evidence = Evidence(scene, unbalance, fields, proven)
     return tuple(caution for watch in WATCHES for caution in watch(evidence))
@@ -83,7 +83,7 @@ def _plain(value: float, digits: int = 4) -> str:
 
 
 def _no_gas(evidence: Evidence) -> Iterator[Caution]:
-    """Rows whose loads were wanted with gas and have none."""
+    """Rows without gas data in a request for loads with gas."""
     machine = evidence.scene.machine
     if not isinstance(machine, ReciprocatingMachine) or "piston_force" not in evidence.scene.simulated.times_ms:
         return

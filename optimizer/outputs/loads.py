@@ -64,7 +64,7 @@ def _figure(scene: Prepared, fitted: Complex | None) -> Loads:
 
 
 def _inertia(scene: Prepared, machine: ReciprocatingMachine) -> float | None:
-    """Polar moment of inertia of all that turns, kg m^2: as given, or what the irregularity asks for."""
+    """Polar moment of inertia of all that turns, kg m^2: of the request, or large enough for the irregularity."""
     wheel = machine.flywheel
     if wheel is None:
         return None

@@ -19,7 +19,7 @@ class Columns:
     values : of a scene of designs and their counterweights (n, webs) kg m, nan where there are none; (n,) by column.
     sampled : whether they are read off the samples of the turn.
     needs : effects whose results they read, where the figure reads others.
-    keys : of those in detail (:mod:`schemas.sweep.details`), which are worked out only where one of them is wanted.
+    keys : of those in detail (:mod:`schemas.sweep.details`), which are computed only for a sweep with one of them.
     alone : whether a design takes about as long as in a single answer, however many there are.
     readings : of the forces of the rows over the turn that they need.
     """

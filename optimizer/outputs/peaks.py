@@ -60,7 +60,7 @@ class Search(NamedTuple):
 
     @property
     def peak_count(self) -> int:
-        """How many peaks are found."""
+        """Number of peaks."""
         return self.number.size if self.group is None else int(np.max(self.group, initial=-1)) + 1
 
 
@@ -199,7 +199,7 @@ def of_shaft(scene: Prepared, curves: ShaftCurves, unbalance: Complex | None, gr
 
     Parameters
     ----------
-    group : (C,) from 0, where only the largest of each group is asked for: (..., groups).
+    group : (C,) from 0, to search only the largest of each group: (..., groups).
     """
     pieces = curves.curves.pieces
     if group is not None:

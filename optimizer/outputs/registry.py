@@ -93,7 +93,7 @@ def fields(
     Parameters
     ----------
     unbalance : (K,) kg m, the counterweights; None where there are none to show (infeasible).
-    proven : fields of the answer that tell what is proven of counterweights that were chosen.
+    proven : fields of the answer with the proof of an optimum.
     """
     outputs = tuple(dict.fromkeys(outputs))
     scene.peaks.clear()
@@ -116,7 +116,7 @@ def columns(request: Scene, unbalance: Complex, always: tuple[str, ...], selecti
     request : of columns (n,), valid and complete.
     unbalance : (n, places) kg m, the counterweights, those on balance shafts behind those on the crankshaft; nan where
         there are none.
-    always : outputs whose columns are needed whether they were asked for or not.
+    always : outputs with columns in every row, whether the request names them or not.
     selection : keys of the columns that are (:func:`schemas.sweep.details.key`); what comes along beside them costs
         little.
     """
@@ -135,7 +135,7 @@ def columns(request: Scene, unbalance: Complex, always: tuple[str, ...], selecti
 
 
 def column_groups(request: Scene, always: tuple[str, ...], selection: frozenset[str]) -> tuple[Columns, ...]:
-    """The columns of a request's outputs that are wanted, in the groups in which they are worked out."""
+    """The columns of a request's outputs that the sweep shows, in groups that are computed together."""
     return _groups((*always, *request.outputs), selection)
 
 
@@ -152,11 +152,11 @@ def _groups(names: tuple[str, ...], selection: frozenset[str]) -> tuple[Columns,
 
 
 def require_inputs(machine: Machine, outputs: Sequence[str], samples: int = 1) -> None:
-    """Check that the machine gives what the outputs need, and that not too much is asked for.
+    """Check that the machine has the inputs of the outputs, and that the answer is not too large.
 
     Parameters
     ----------
-    samples : number of shaft angles asked for in one turn.
+    samples : number of shaft angles in one turn.
 
     Raises
     ------

@@ -11,7 +11,7 @@ from schemas.request.objective import Objective
 
 #: effects that an objective over the whole turn needs, and one about peaks on the frame alone
 _TURN, _ON_FRAME = ("whole_turn",), ("frame_forces",)
-#: why the bending of a shaft without bearings cannot be told
+#: why the bending of a shaft without bearings is undetermined
 _FREE = (
     "a free shaft bends in a known way only where its loads balance at every angle, which those of pistons never do:"
     " give the bearings that carry them"

@@ -17,7 +17,7 @@ from optimizer.outputs.phasors import PlainWrench
 from optimizer.outputs.rules_of_thumb import SAME_PLANE_M
 from schemas.answer.stages import StageIron
 
-#: the smaller phasor over the larger one below which it counts as none: an optimum leaves what the asked gap allows
+#: the smaller phasor over the larger one below which it counts as none: an optimum leaves what its target gap allows
 _SHAPE = 1e-6
 Motion = Literal["none", "with_shaft", "against_shaft", "fixed", "ellipse"]
 

@@ -48,7 +48,7 @@ _ROUNDING = 1e-13
 
 
 class _Shape(NamedTuple):
-    """What an engineer is told of a stage beside its size."""
+    """What an engineer reads of a stage beside its size."""
 
     plane: str
     frequency: str

@@ -87,7 +87,7 @@ def pin_loads(request: PinLoadsRequest) -> PinLoadsAnswer:
 
 
 def _torques(request: PinLoadsRequest) -> tuple[PeriodicTable, PeriodicTable | None]:
-    """Rotation torque and, if its cause is given, orbiting resistance torque."""
+    """Rotation torque and, from the tangential gas force if any, orbiting resistance torque."""
     force = request.tangential_gas_force_N
     if force is None:
         return _periodic(request.rotation_torque_Nm), None

@@ -235,7 +235,7 @@ def _rounding(scaled: _Scaled, turn: Real, shift: Real, load: Real) -> Real:
     parts = np.abs(scaled.lever * turn[:, None]) + np.abs(shift)[:, None] + np.abs(scaled.error) + scaled.clearance
     bearing = np.where(np.abs(strain) > scaled.clearance, scaled.stiffness, 0.0)
     beyond, whole, square, _ = _about_mean(scaled, bearing)
-    # levers are at most 1: a sum of n products, each with a lever that is known to some eps
+    # levers are at most 1: a sum of n products, each with a lever whose error is some eps
     off = (load.shape[-1] + 8.0) * _EPS * (np.sum(np.abs(load), axis=-1) + np.abs(scaled.torque))
     twist = np.where(square > 0.0, off / _nonzero(square), 0.0)
     spread = bearing * (twist[:, None] * np.abs(beyond) + (off / whole)[:, None])

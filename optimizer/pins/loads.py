@@ -71,8 +71,8 @@ def gas_torques(tangential_force: Real, orbit_radius: Real) -> tuple[Real, Real]
     """Rotation torque and orbiting resistance torque of the tangential gas force, N m (...).
 
     Assumption, usual for scroll compressors with equal wraps: the resultant of the tangential gas forces acts midway
-    between the centres of orbiting and fixed scroll, which leaves the lever r/2 about the centre of the orbiting
-    scroll. All of a scroll that does not turn moves with r omega, so by its power the same force resists the motor
+    between the centres of orbiting and fixed scroll. So its lever about the centre of the orbiting scroll is r/2.
+    All of a scroll that does not turn moves with r omega, so by its power the same force resists the motor
     with F_t r. Liu, Zhao and Li, section 3, names both moments and gives no formula.
 
     Parameters

@@ -92,7 +92,7 @@ class Pattern:
 
 
 def pattern_of(request: PinLoadsRequest) -> Pattern:
-    """Pins as they are given. One pin alone on a free bearing has the formula of even pins, there is no other."""
+    """The pattern of a request. One pin alone on a free bearing has the formula of even pins, there is no other."""
     bearing = request.drive_bearing
     drive = {"free": 0.0, "rigid": np.inf, "elastic": bearing.stiffness_N_per_m or 0.0}[bearing.type]
     if request.pins is None:

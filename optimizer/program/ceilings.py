@@ -26,7 +26,7 @@ class Ceilings:
     size: Real  # (..., I) > 0, what an excess is measured by
     tolerance: float = CEILING_TOLERANCE  # up to which they count as kept, as a share of the size
     angles_deg: tuple[float | None, ...] | None = None  # (I,) at which a response is limited; None is over the turn
-    scenarios: tuple[str | None, ...] | None = None  # (I,) whose response is limited; None is the machine as given
+    scenarios: tuple[str | None, ...] | None = None  # (I,) whose response is limited; None is the unchanged machine
 
     def excess(self, u: Complex) -> Real:
         """How far each response is above its ceiling, relative to its size; <= 0 if met."""

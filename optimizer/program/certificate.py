@@ -1,4 +1,4 @@
-"""Lower bounds in closed form: arrays in, bound out, whichever solver found the multipliers.
+"""Lower bounds in closed form: arrays in, bound out. Multipliers may come from any solver.
 
 For |y_j| <= 1 and lam of sum 1 in each group, P(u) >= sum_r lam_r (floor_r + sum_{j in r} Re(conj(y_j) a_j(u))), an
 affine function of u whose minimum over the limits is a support function and a knapsack (docs/mathematics.md section 5).

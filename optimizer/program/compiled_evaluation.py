@@ -1,4 +1,4 @@
-"""Programs as compiled loops take them, and what those loops are asked.
+"""Programs as compiled loops take them, and the loops' inputs and results.
 
 An answer asks for a handful of numbers many times: a loop of simple operations takes a tenth of the time of arrays.
 """
@@ -30,7 +30,7 @@ class Minorants(NamedTuple):
     support: Real  # (..., K) what a kilogram metre can lower them by within the sectors, or more
 
 
-#: what multipliers are told by: of terms (..., J), of rows (..., R), of ceilings (..., I)
+#: prices in proofs: of terms (..., J), of rows (..., R), of ceilings (..., I)
 Dual = tuple[Complex, Real, Complex]
 
 

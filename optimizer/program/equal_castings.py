@@ -1,8 +1,8 @@
 """Webs that carry alike counterweights: each that of another, turned, or the mirror image of it.
 
 A unit is the webs of one group, or a web by itself. With w the unbalance of its first web, web k carries t_k w, or
-t_k conj(w) where it is mirrored: what may be is a space over the real numbers, whose nearest point to any other is a
-mean over every unit (docs/mathematics.md section 5).
+t_k conj(w) where it is mirrored. The possible unbalances are a space over the real numbers; the nearest point of it to
+any other is a mean over every unit (docs/mathematics.md section 5).
 """
 
 from typing import Any

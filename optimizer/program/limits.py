@@ -85,7 +85,7 @@ class Limits:
         """An unbalance within all limits, close to one that is nearly so, kg m (..., K)."""
         axes = self.radius.shape[:-1]
         leading = np.broadcast_shapes(axes, u.shape[:-1])
-        # limits that are the same for some of the points are told once for each
+        # limits that are the same for some of the points are computed once for each
         own = axes if leading[len(leading) - len(axes) :] == axes else leading
         return within(self.region(own), leading, u)
 

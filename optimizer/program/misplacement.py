@@ -83,8 +83,8 @@ def farthest_by_angle(fixed: Complex, vectors: Complex, angle: float) -> Real:
 def angle_corners(vectors: Complex, angle: float) -> Complex:
     """Corners of an outline (..., 4 K) around all sums of v_k (e^{j psi_k} - 1), |psi_k| up to an angle [rad].
 
-    Every arc lies inside the two ends and the two places where the tangents in the middle and at the ends meet, which
-    are further out by less than a hundredth of what the angle moves the vector, of angles up to a degree.
+    Every arc lies inside its two ends and the two places where the tangents in the middle and at the ends meet. For
+    angles up to a degree these are further out by less than a hundredth of what the angle moves the vector.
     """
     turns = np.exp(1j * angle * np.array([-1.0, -0.5, 0.5, 1.0])) / np.array([1.0, *2 * [np.cos(0.5 * angle)], 1.0])
     outline = vectors[..., None] * (turns - 1.0)

@@ -14,8 +14,8 @@ from optimizer.numerics.records import record
 class Norms:
     """Terms |c_j + H_j u|; where counterweights scatter, each the largest of all that they may come to.
 
-    Of a quantity that is no vector, such as a moment about the crankshaft, a term is |Re(c_j + H_j u)|: a norm whose
-    multiplier y_j is real, with which all that is proven by Re(conj(y_j) (c_j + H_j u)) stands as it is.
+    Of a quantity that is no vector, such as a moment about the crankshaft, a term is |Re(c_j + H_j u)|. It is a norm
+    whose multiplier y_j is real, and every proof by Re(conj(y_j) (c_j + H_j u)) holds for it.
     """
 
     constant: Complex  # (..., J)

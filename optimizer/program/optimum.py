@@ -24,13 +24,13 @@ def optimum(
 
     Parameters
     ----------
-    relative_gap : asked gap of the last goal, relative to its yardstick.
+    relative_gap : target gap of the last goal, relative to its yardstick.
     least_mass : take the least total mass among the optima.
     time_limit_s : of this thread's own time, after which a search by cuts ends with what it has.
     """
     stated = cone_program(program, least_mass)
     if stated is None or (program.plates is not None and (least_mass or program.limits.max_total_mass < np.inf)):
-        # the mass of plates is known by its tangents
+        # the program has the mass of plates by tangents, which cuts refine
         return over_turn(program, relative_gap, least_mass, time_limit_s)
     statement = within_reach(stated)
     whole = statement.alone()
@@ -53,12 +53,12 @@ def cone_program(program: Problem, least_mass: bool) -> Statement | None:
 def solution(
     program: Problem, statement: Statement, optima: Optima, u: Complex, least_mass: bool
 ) -> CertifiedOptimum | Conflict:
-    """What is found of a problem that is a cone program, of a batch of one.
+    """The optimum of a problem that is a cone program, from a batch of one.
 
     Parameters
     ----------
     statement : that is solved, no leading axes.
-    u : (K,) kg m, no worse than what is found.
+    u : (K,) kg m, no worse than the optimum of the batch.
     least_mass : whether the least mass was sought.
     """
     method, spent = str(optima.method[0]), float(optima.certify_s[0])

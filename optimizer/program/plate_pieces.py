@@ -80,7 +80,7 @@ def total_mass(plates: Plates | None, radius: Real, u: Complex) -> float:
 
 
 def first_nodes(plates: Plates) -> Real:
-    """Half-angles (n, P) from 0 to the largest, for plates of which nothing is known."""
+    """Half-angles (n, P) from 0 to the largest, for plates without a point so far."""
     most = plates.most
     return _apart(np.concatenate([np.zeros((1, most.size)), np.minimum(_FIRST[:, None], most), most[None]]))
 

@@ -124,7 +124,7 @@ class _Places(NamedTuple):
     names: Names
 
 
-# of the few shapes that are asked for again and again
+# of the few shapes that recur
 @lru_cache(maxsize=128)
 def _places(groups: tuple[int, ...], rows: tuple[tuple[str, tuple[tuple[str, str | None, int], ...]], ...]) -> _Places:
     """Those of one shape.

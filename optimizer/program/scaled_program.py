@@ -1,4 +1,4 @@
-"""A program of order one as data: what a solver is given and what it returns, whichever it is."""
+"""A program of order one as data: input and result of any solver."""
 
 from typing import Literal, NamedTuple
 

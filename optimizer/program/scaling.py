@@ -51,7 +51,7 @@ class Scaling:
 def natural_reach(statement: Statement) -> Real:
     """Size of the unbalance that cancels every term by the least change, kg m (...).
 
-    Far larger counterweights are never needed; limits beyond a multiple of it are as good as none.
+    Far larger counterweights are useless; limits beyond a multiple of it are as good as none.
     """
     return np.maximum(np.maximum.reduce(np.abs(cancelling(statement)), axis=-1, initial=0.0), statement.single_reach)
 
@@ -61,7 +61,7 @@ def cancelling(statement: Statement, passes: int = 1) -> Complex:
 
     Parameters
     ----------
-    passes : three are exact to rounding also where webs can hardly be told apart.
+    passes : three are exact to rounding also where webs have almost equal influence.
 
     Returns
     -------

@@ -32,7 +32,7 @@ def shadow_prices(
     ----------
     u : (..., K) kg m, an optimum.
     multipliers : admissible, with rows of sum 1.
-    budget : (...) price of the budget where it is known more closely: of plates by what is laid in their place.
+    budget : (...) price of the budget where a closer one exists: of plates by the pieces in their place.
     """
     limits, ceilings = statement.limits, statement.ceilings
     norms = statement.norms

@@ -12,7 +12,7 @@ from optimizer.program.ceilings import CEILING_TOLERANCE
 from optimizer.program.certificate import Multipliers, nothing_proven
 from optimizer.program.statement import Statement
 
-#: an excess that rounding alone may make, as a share of the size: solvers keep the ceilings they are given up to here
+#: an excess that rounding alone may make, as a share of the size: solvers keep ceilings up to here
 CEILING_ROUNDING = 1e-13
 #: optima are within this share of the objective without counterweights (docs/api/certificate.md)
 OPTIMUM_SHARE = 1e-6

@@ -33,12 +33,12 @@ class Term(NamedTuple):
     response: str
     part: Part
     angle_deg: float | None = None  # of the shaft, where it is the response at one angle
-    scenario: str | None = None  # whose response it is; None is the machine as it is given
+    scenario: str | None = None  # whose response it is; None is the unchanged machine
     share: float | None = None  # of the response in the norm of a root mean square: of what counterweights move
 
 
 class Names(NamedTuple):
-    """What terms and rows of an objective are called where its proof is told."""
+    """Names of terms and rows of an objective in its proof."""
 
     terms: tuple[Term, ...]  # J
     rows: tuple[str, ...]
@@ -119,7 +119,7 @@ class Statement:
     def objective_of(self, sizes: Real) -> Real:
         """P (...) for sizes of the terms (..., J)."""
         rows = self.rows(sizes)
-        # one group is what is asked most
+        # one group is the common case
         return np.maximum.reduce(rows, axis=-1) if self.group[-1] == 0 else np.add.reduce(self.largest(rows), axis=-1)
 
     @cached_property
@@ -259,7 +259,7 @@ class Statement:
             self.limits.mapped(_first),
             self.names,
         )
-        # what is known of it is not found out again
+        # properties of the original are copied, and not computed again
         attributes = vars(program)
         for name in ("constant_sizes", "constant_sum", "at_rest"):
             attributes[name] = getattr(self, name)[None]

@@ -1,7 +1,7 @@
 """What an answer may claim: one rule for single answers, sweeps and fronts.
 
-The bound and the value are compared as they are. A bound is lowered to the value where it is above it by no more than
-the rounding with which the value is known; a bound further above contradicts the answer, and then nothing is proven.
+The bound and the value are compared as they are. A bound above the value by no more than the rounding error of the
+value is lowered to it. A bound further above contradicts the answer, and then nothing is proven.
 """
 
 import logging
@@ -22,7 +22,7 @@ from optimizer.program.statement import Statement
 _LOG = logging.getLogger(__name__)
 #: an answer whose total mass is not certified this closely, in units of its yardstick, is called inaccurate
 MASS_GAP = 1e-4
-#: of the least mass that could cancel something: masses below are not told apart any finer
+#: of the least mass that could cancel something: smaller differences of mass do not count
 _MASS_SHARE = CEILING_TOLERANCE / MASS_GAP
 #: rounding of a mass, relative to it
 _MASS_ROUNDING = 1e-13
@@ -69,9 +69,9 @@ class Claim:
     yardstick: Real  # (..., G)
     excess: Real  # (...) largest relative excess over a ceiling, -inf without ceilings
     mass: Real  # (...) kg
-    mass_resolution: Real  # (...) kg, lighter ones are not told apart any finer
-    mass_lower_bound: Real | None  # (...) kg; None where the least mass was not asked for
-    contradicted: bool = False  # another bound that was needed on the way is above its value
+    mass_resolution: Real  # (...) kg, smaller differences of mass do not count
+    mass_lower_bound: Real | None  # (...) kg; None without a search for the least mass
+    contradicted: bool = False  # another bound on the path to this one is above its value
 
 
 def claim(
@@ -181,11 +181,11 @@ def yardstick(statement: Statement) -> Real:
 
 
 def mass_resolution(statement: Statement, yardstick: Real) -> Real:
-    """Mass below which masses are not told apart any finer (...), kg.
+    """Smallest difference of masses that counts (...), kg.
 
     It is 1e-5 of the least mass that could cancel a row of the objective, or the response under a ceiling, at the web
     where a kilogram does most. So the gap that it allows, 1e-4 of it, changes either by no more than ceilings may be
-    exceeded by: no least mass is known better than the ceilings that it is to keep.
+    exceeded by: no least mass is more accurate than the ceilings that it is to keep.
 
     Parameters
     ----------

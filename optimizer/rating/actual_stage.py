@@ -28,7 +28,7 @@ class ActualStage:
 
 
 def piston_speed(request: RatingRequest) -> float:
-    """Mean piston speed [m/s] for the pressure losses: as given, or that of the machine."""
+    """Mean piston speed [m/s] for the pressure losses: of the request, or that of the machine."""
     if request.mean_piston_speed_m_s is not None:
         return request.mean_piston_speed_m_s
     return mean_piston_speed(request.stroke_m, request.speed_rpm)

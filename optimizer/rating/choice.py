@@ -1,6 +1,6 @@
-"""Piston rods and motor chosen from tables, by doing the design over until both suffice.
+"""Piston rods and motor from tables: the design is done again until both suffice.
 
-A thicker rod takes area from the crank side, so that bore and gas force grow with it; a motor runs at a speed of its
+A thicker rod takes area from the crank side, so that bore and gas force grow with it. A motor runs at a speed of its
 own, which changes volumes and power. No choice is ever taken back for a smaller one, so that this ends.
 """
 
@@ -15,7 +15,7 @@ from schemas.rating.answer import Choice, ChoiceStep, RatingAnswer
 from schemas.rating.request import RatingRequest
 from schemas.rating.tables import Motor, PistonRod
 
-#: a motor whose speed is nearer than this to the speed that is asked for, as a share of it, may be chosen
+#: the speed of a motor may differ from that of the request by so large a share
 SPEED_TOLERANCE = 0.05
 
 #: request at some speed and diameters of the rods [m] -> its rating
@@ -35,7 +35,7 @@ def with_choice(request: RatingRequest, rated: Rated) -> RatingAnswer:
     Raises
     ------
     OutOfRange
-        if the largest of a table do not suffice, or none of the motors runs at about the asked speed.
+        if the largest of a table do not suffice, or none of the motors runs at about the speed of the request.
     """
     motors, table = _motors(request), request.piston_rods
     entries = [stage.piston_rod_diameter_m for stage in request.stages]
@@ -68,7 +68,7 @@ def with_choice(request: RatingRequest, rated: Rated) -> RatingAnswer:
 
 
 def _motors(request: RatingRequest) -> Sequence[Motor]:
-    """Motors that run at about the asked speed, the weakest first."""
+    """Motors that run at about the speed of the request, the weakest first."""
     if not request.motors:
         return ()
     speed = request.speed_rpm

@@ -15,9 +15,9 @@ PRESSURE_COEFFICIENTS = ((0.95, 0.98), (0.98, 1.0))
 TEMPERATURE_COEFFICIENTS = (0.935, 0.975)
 #: under (1-6) of the calculation of the 2D12, 0.85 to 0.95, without lubrication; a lubricated cylinder is tighter
 LEAKAGE_COEFFICIENTS = (0.85, 0.98)
-#: a built capacity this close to the asked one passes for the same
+#: an actual capacity this close to that of the request counts as equal
 CAPACITY_TOLERANCE = 0.05
-#: a given piston speed this close to that of the machine passes for the same
+#: a piston speed of the request this close to that of the machine counts as equal
 SPEED_TOLERANCE = 0.01
 
 

@@ -27,12 +27,12 @@ def volumetric_coefficient(clearance: float, ratio: float, m: float) -> float:
 
 
 def pressure_coefficient(stage: CompressionStage, index: int) -> float:
-    """lam_p as given, or customary for the stage of this index."""
+    """lam_p of the request, or customary for the stage of this index."""
     return _PRESSURE[min(index, 1)] if stage.pressure_coefficient is None else stage.pressure_coefficient
 
 
 def leakage_coefficients(stages: Sequence[CompressionStage]) -> list[float]:
-    """lam_l = 1 / (1 + sum nu) of every stage, (1-6), or as given.
+    """lam_l = 1 / (1 + sum nu) of every stage, (1-6), or that of the request.
 
     Gas lost through a packing passed every stage before: nu holds the packings of the later stages too.
     """

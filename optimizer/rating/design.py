@@ -133,7 +133,7 @@ def delivery(
 
 
 def _temperature_coefficient(stage: CompressionStage, curve: Curve | None, ratio: float) -> float:
-    """lam_T as given, read off the curve at a pressure ratio, or customary."""
+    """lam_T of the request, read off the curve at a pressure ratio, or customary."""
     if stage.temperature_coefficient is not None:
         return stage.temperature_coefficient
     return TEMPERATURE_COEFFICIENT if curve is None else curve.at(ratio)

@@ -29,7 +29,7 @@ def rate(request: RatingRequest) -> RatingAnswer:
     Raises
     ------
     OutOfRange
-        if no machine can do what is asked; names the fields.
+        if no machine meets the request; names the fields.
     """
     entries = [stage.piston_rod_diameter_m for stage in request.stages]
     diameters = [diameter for diameter in entries if diameter is not None]

@@ -12,7 +12,7 @@ def equal_split(p1: float, p2: float, stages: int) -> tuple[float, ...]:
 
 
 def split(p1: float, p2: float, stages: int, between: Sequence[float] | None) -> tuple[float, ...]:
-    """Pressures [Pa] before, between and after the stages: as given, or of equal ratio."""
+    """Pressures [Pa] before, between and after the stages: of the request, or of equal ratio."""
     return equal_split(p1, p2, stages) if between is None else (p1, *between, p2)
 
 

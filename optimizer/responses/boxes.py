@@ -77,7 +77,7 @@ class Cells(NamedTuple):
 
 
 class CellBounds(NamedTuple):
-    """What is known of cells."""
+    """Bounds of cells."""
 
     most: Real
     rounding: Real  # of angles, which no finer cell has less of; ``most`` holds it
@@ -99,7 +99,7 @@ def worst_masses(value: Complex, parts: Complex) -> Real:
 
 
 def look(cells: Cells) -> CellBounds:
-    """What cells come to at most, and what they are known to reach."""
+    """Upper bounds of cells, and values that they reach."""
     middle = cells.parts[..., 0]
     size, reach = np.abs(middle), np.sum(np.abs(cells.parts[..., 1:]), axis=-1) + cells.rests
     along = (np.exp(-1j * cells.towards)[:, None] * middle).real

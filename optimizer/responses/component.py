@@ -18,7 +18,7 @@ _ROUNDING = 16 * np.finfo(float).eps
 
 
 def component(response: TurnResponse, axis: str, sense: float) -> TurnResponse:
-    """A component of a vector on the frame that is known as the shaft sees it: a scalar.
+    """A component of a vector on the frame, from the vector as the shaft sees it: a scalar.
 
     Parameters
     ----------

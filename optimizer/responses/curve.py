@@ -159,7 +159,7 @@ def peaks_about(
 
     Parameters
     ----------
-    group : (responses,) from 0, each of one response, where only the largest of each group is asked for, which costs
+    group : (responses,) from 0, each of one response, to search only the largest of each group, which costs
         less: peaks (groups,).
     """
     number: Index = np.array([response.number for response in responses], dtype=np.intp)
@@ -194,12 +194,12 @@ def _moving(response: TurnResponse, by: Harmonics, tolerance: Reals) -> Bracket:
 def floors(
     curves: Curves, tolerance: float, numbers: Sequence[int] | Index | None = None, group: Index | None = None
 ) -> Floors:
-    """The smallest circles around curves, each radius known to a tolerance relative to it.
+    """The smallest circles around curves, each radius to a tolerance relative to it.
 
     Parameters
     ----------
     numbers : which curves, by default all; of designs in which the same pieces have a width.
-    group : (numbers,) from 0, where only the largest radius of each group is asked for: of the others no more is found
+    group : (numbers,) from 0, to search only the largest radius of each group: of the others no more is found
         out than that they are smaller.
     """
     from optimizer.responses.kernel.parts import Members

@@ -46,7 +46,7 @@ class Bracket(NamedTuple):
     upper: Real  # nothing over the whole period is above it
 
     def where(self, mask: NDArray[np.bool_]) -> "Bracket":
-        """The same, nan where nothing is known (...)."""
+        """The same, nan outside a mask (...)."""
         return self if all_true(mask) else Bracket(*(np.where(mask, part, np.nan) for part in self))
 
 
@@ -54,10 +54,10 @@ class Source(Protocol):
     """What the pieces of curves are made from."""
 
     def cubics(self, curve: Index, piece: Index, centre: Real, half: Real) -> Complex:
-        """Taylor polynomials (m, 4) about other centres (m,) rad within given pieces."""
+        """Taylor polynomials (m, 4) about other centres (m,) rad within pieces."""
 
     def values(self, curve: Index, piece: Index, angle: Real) -> Complex:
-        """Values (m,) at angles (m,) rad within given pieces; at their ends the one-sided limits."""
+        """Values (m,) at angles (m,) rad within pieces; at their ends the one-sided limits."""
 
     def search(self, cubics: "Cubics", members: "Members", best: "Best", motion: "Motion | None" = None) -> Complex:
         """Peaks of the curves, or of one of them in motion, from their pieces: the curves (peaks,) there, at rest.
@@ -125,8 +125,8 @@ class Pieces:
         ----------
         offset : (m,) in the unit of the curves; where it is nan there is no peak.
         tolerance : (m,) or one for all, of upper - lower, relative to lower; rounding sets a limit to it.
-        curve : (m,) which curve each is asked of, by default all in turn.
-        group : (m,) from 0, where only the largest of each group is asked for, which costs less: peaks (groups,).
+        curve : (m,) the curve of each peak, by default all in turn.
+        group : (m,) from 0, to search only the largest of each group, which costs less: peaks (groups,).
         sign : (m,) or one for all, the same in a group: 0 for magnitudes; of scalars 1 for the largest value of
             d + offset, -1 for the smallest, negated.
         """
@@ -178,7 +178,7 @@ def _brackets(
 ) -> Bracket:
     """Brackets (count,), of no meaning where a peak has no member.
 
-    What is below the best found by less than the tolerance is let go, the rest looked at closer.
+    Parts below the best value, or above it by less than the tolerance, are let go; the rest is looked at closer.
 
     Parameters
     ----------

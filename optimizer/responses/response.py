@@ -88,7 +88,7 @@ class Response:
         where there are none. The unbalance of such a web stands for its mirror image at the x axis, conj(v), so that
         all is affine in it: it changes conj(counter). Where the phasors never meet in one vector it may as well stand
         for v itself.
-    scenario : name of the scenario whose response it is; None of the machine as it is given.
+    scenario : name of the scenario whose response it is; None of the unchanged machine.
     """
 
     name: str

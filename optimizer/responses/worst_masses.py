@@ -3,7 +3,7 @@
 Every row adds its part g_r(theta) to a curve d(theta), times 1 + e_r with |e_r| no more than a share p. For one angle
 the largest |d + sum e_r g_r| is that along some direction phi, Re(e^{-j phi} d) + p sum_r |Re(e^{-j phi} g_r)|: a
 search in angle and direction, two numbers however many rows there are. In a cell of both most rows have one sign all
-over it, and with these signs they are one polynomial with the curve; the others are bounded by what they may come to
+over it, and with these signs they are one polynomial with the curve. The others are bounded by their sizes
 along its directions. Where few are left all their signs are tried, so that cells end with one sign for every row and
 close in on a peak like those of a curve.
 """
@@ -26,7 +26,7 @@ _ENOUGH = 0.125
 #: signs of so many rows are tried one by one
 _FEW = 3
 #: after so many rounds, and after so many coefficients of rows were looked at, which take about half a second, the
-#: bracket is told as it is
+#: bracket stays as it is
 _MOST_ROUNDS, _MOST_NUMBERS = 100, 2_000_000
 #: brackets are narrowed step by step to widths relative to the peaks, and at last to the tolerance: what is broken off
 #: has those of the step before
@@ -82,7 +82,7 @@ def worst_peaks(pieces: Pieces, parts: Parts, share: float, offset: Complex, cur
 
 @dataclass
 class _Best:
-    """The best found of each peak."""
+    """The best value of each peak."""
 
     lower: Real
     upper: Real  # of all that can hold no peak above it
@@ -92,7 +92,7 @@ class _Best:
 
 
 class _Boxes(NamedTuple):
-    """Cells, and what is known of them."""
+    """Cells with their bounds."""
 
     cells: Cells
     bounds: CellBounds
@@ -123,7 +123,7 @@ class _Search:
             left = self._still_open(cells)
             while left.cells.member.size and self._afforded(left):
                 left = self._still_open(self._finer(left))
-            # whatever is left may hold a peak as large as it is known to come to at most
+            # every cell that is left may hold a peak as large as its upper bound
             most = self.best.upper.copy()
             for boxes in (left, *self.later):
                 np.maximum.at(most, boxes.cells.member, boxes.bounds.most)
@@ -140,8 +140,8 @@ class _Search:
         return lower + np.maximum(np.maximum(self.tolerance, level) * np.maximum(lower, 0.0), ROUNDING * self.scale)
 
     def _still_open(self, cells: Cells) -> _Boxes:
-        """Those that may hold a peak above the best found, theirs included. Of the others those that may hold one by
-        finer brackets wait for these, and the rest is told in the bracket."""
+        """Cells that may hold a peak above the best value, and those that hold it. Cells that matter only for
+        finer brackets wait for these, and the bracket includes the rest."""
         bounds = look(cells)
         _keep(self.best, cells, bounds)
         boxes = _Boxes(cells._replace(towards=bounds.towards, width=bounds.width), bounds)
@@ -202,7 +202,7 @@ def _together(cells: Sequence[Cells]) -> Cells:
 def _first(
     pieces: Pieces, parts: Parts, share: float, offset: Complex, curve: Index, tolerance: Real
 ) -> tuple[_Best, Cells]:
-    """Pieces that may hold a peak, with all directions, beside what is known without them; the polynomials are left
+    """Pieces that may hold a peak, with all directions, beside bounds that need no directions; the polynomials are left
     for later."""
     there = pieces.half[curve] > 0.0
     centred = np.abs(pieces.cubic[curve, :, 0] + offset[:, None])

@@ -1,8 +1,8 @@
 """Cheaper choices from a catalogue, beside the best one: what a little of the objective saves of mass, of castings and
 of part numbers.
 
-Each is what goals in their order come to, the objective with an allowance before a cost, and is found by the same
-searches; what one of them comes upon serves all.
+Each makes goals small in their order, the objective with an allowance before a cost. All use the same
+searches; a point of one search serves all.
 """
 
 import logging
@@ -57,7 +57,7 @@ def alternatives(
     for _ in range(MOST_ROUNDS):
         robust.learnt(u)
         candidates = list(_cheaper(allowances, robust, choices, points))
-        # of masses that scatter, what makes one of these worse than is known so far
+        # of masses that scatter, changes that make one of these worse than before
         worse = [robust.learnt(candidate.choice.unbalance) for candidate in candidates]
         if not any(worse):
             break
@@ -81,7 +81,7 @@ def _cheaper(
     choices: Callable[[Limits], FeasibleSet],
     incumbents: Sequence[Complex],
 ) -> Iterator[_Cheap]:
-    """What is cheaper than the best choice, by what is known of masses that scatter.
+    """Choices that are cheaper than the best, under the changes of masses so far.
 
     Parameters
     ----------

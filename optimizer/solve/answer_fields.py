@@ -1,4 +1,4 @@
-"""What is told of counterweights that are found, with goals in their order."""
+"""Fields of an answer about its counterweights, with goals in their order."""
 
 import time
 from collections.abc import Collection, Iterator, Mapping
@@ -39,7 +39,7 @@ from schemas.answer.limits import MachineLimit, ShadowPrice, WebLimit
 _CLOSE = 1e-10
 #: the same where goals are kept whose price may be high
 _CLOSER = 1e-12
-#: a floor is a sum of few, known to so many units in its last place
+#: a floor is a sum of few, exact to so many units in its last place
 _FLOORS = 8.0
 _EPS = float(np.finfo(float).eps)
 
@@ -55,7 +55,7 @@ class Candidate(NamedTuple):
 def fitted(
     task: Task, scene: Prepared, goals: Goals, optimum: CertifiedOptimum, demand: Demand, in_full: bool = True
 ) -> Solution:
-    """What is told of counterweights that were found.
+    """Fields of an answer about an optimum.
 
     Parameters
     ----------
@@ -78,11 +78,11 @@ def solution_of(
     search: SearchProof | None = None,
     in_full: bool = True,
 ) -> Solution:
-    """The same of counterweights however they were chosen.
+    """The same of counterweights of any kind.
 
     Parameters
     ----------
-    search : what is proven of all that may be chosen; None where any mass at any angle may be.
+    search : what is proven of all choices; None where any mass at any angle may be.
     in_full : with prices of the limits and what misplaced counterweights may cost.
     """
     began, (mass, angle, optimum) = time.perf_counter(), candidate
@@ -158,7 +158,7 @@ def _printed(
 def _of_search(
     optimum: CertifiedOptimum, judged: Verdict, search: SearchProof | None, omega_squared: float
 ) -> dict[str, Real | float | str | None]:
-    """How the counterweights were found, as the certificate has it."""
+    """The method of the optimum, as the certificate has it."""
     by_cuts = optimum.method == METHOD
     rounds, cuts = (optimum.rounds, optimum.cuts) if by_cuts else (None, None)
     if search is None:

@@ -1,4 +1,4 @@
-"""What counterweights that are chosen cost, and the most that goals before leave of it."""
+"""What castings and choices cost, and the most that goals before leave of it."""
 
 from dataclasses import replace
 from typing import NamedTuple

@@ -33,7 +33,7 @@ class Certified:
     program: Statement  # (N,), over omega^2, with the limits that the proofs count with
     omega_squared: Real  # (N,) rad^2/s^2
     optima: Optima
-    mass_kg: Real  # (N, K), those that are chosen, as all that follows
+    mass_kg: Real  # (N, K), of the answer, as all that follows
     angle_deg: Real  # (N, K)
     unbalance: Complex  # (N, K) kg m, of these masses and angles
     certificate: dict[str, np.ndarray]  # (N,) fields of the certificate, in the units of the answer; nan is null

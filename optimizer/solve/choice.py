@@ -38,16 +38,16 @@ from schemas.answer.answers import GoalReached
 from schemas.request.objective import COSTS, Cost
 
 _LOG = logging.getLogger(__name__)
-#: width of the brackets by which choices are told apart, as a share of goals
+#: width of the brackets that compare choices, as a share of goals
 _CLOSE = 1e-10
-#: share of the asked gap that a search for the lightest may leave where castings are not all
+#: share of the target gap that a search for the lightest may leave where castings are not all
 _OF_GAP = 0.5
 #: by which products of shares are rounded, relative
 _ROUNDING = 1e-12
 
 
 def best_choice(task: Task, scene: Prepared, in_full: bool = True, worst_case: bool = True) -> Solution | Infeasible:
-    """Of what can be chosen the best, over the turn and in the worst of all scenarios.
+    """The best of all choices, over the turn and in the worst of all scenarios.
 
     Parameters
     ----------
@@ -57,7 +57,7 @@ def best_choice(task: Task, scene: Prepared, in_full: bool = True, worst_case: b
     Raises
     ------
     OutOfRange
-        where the options of a web cannot be told, or webs of a group are unlike.
+        where the options of a web are not determined, or webs of a group are unlike.
     MissingInput
         if a machine lacks what the objective needs.
     """
@@ -76,7 +76,7 @@ def best_choice(task: Task, scene: Prepared, in_full: bool = True, worst_case: b
         stages, picked = course.stages, course.incumbent
         if picked is None or not robust.learnt(*course.unbalances) or robust.left_s == 0.0:
             break
-    # judged by all changes of masses that are known, of which those before have proven no less
+    # judged by all changes of masses so far, of which those before have proven no less
     goals = robust.goals() if robust.scatters else goals
     assert picked is not None  # a choice is there after the first goal
     last = stages[-1]
@@ -110,7 +110,7 @@ def best_choice(task: Task, scene: Prepared, in_full: bool = True, worst_case: b
 
 
 def _levels_of(levels: list[GoalReached], program: Problem, choice: Choice, omega_squared: float) -> list[GoalReached]:
-    """Levels of goals, no lower than a choice keeps them: the time may end before all that makes it worse is known."""
+    """Levels of goals, no lower than a choice keeps them: time may end before all worse changes of masses are in."""
     if not levels:
         return levels
     values = (program.values(choice.unbalance, _CLOSE).goals * omega_squared).tolist()
@@ -150,7 +150,7 @@ def _in_order(task: Task, robust: Robust, goals: Goals, best: CertifiedOptimum) 
         if priority is not None and priority.goal in COSTS:
             course.cheapest(priority.goal, priority.allowance, reserve_s)
         elif not course.smallest(later, reserve_s):
-            # counterweights that keep no ceilings are told by what any masses come to
+            # the goals after this one of counterweights that keep no ceilings are those of any masses
             break
     return course if costs else replace(course, levels=[])
 
@@ -167,12 +167,12 @@ class _GoalOrder:
     levels: list[GoalReached] = field(default_factory=list)
     caps: Caps = NO_CAPS
     incumbent: Choice | None = None  # that keeps all so far
-    closed: bool = True  # the gaps of all goals are the asked ones
+    closed: bool = True  # the gaps of all goals are at most the target gap
     unbalances: list[Complex] = field(default_factory=list)  # (K,) kg m, of the choice of every goal
     _reached: list[GoalLevel] = field(default_factory=list)
 
     def smallest(self, later: int, reserve_s: float) -> bool:
-        """Make the next goal small that is no cost; whether a choice was found that keeps the ceilings."""
+        """Make the next goal small that is no cost; whether some choice keeps the ceilings."""
         n, program, gap = len(self.stages), self.program, self.robust.demand.relative_gap
         goal, incumbent = program.goals[n], self.incumbent
         so_far = self._so_far(n + 1)
@@ -231,7 +231,7 @@ class _GoalOrder:
         level = self._reached[-1].most if self._reached else np.inf
         choice, bound = costs.least(kind, level, max(self.robust.left_s - reserve_s, 0.0))
         if choice is None:
-            # that there is none is told of the goal after it
+            # the goal after it says that there is none
             self.closed = False
             return
         value = cost(choice, kind)
@@ -269,7 +269,7 @@ def _limits(
     """
     discrete = task.choice == "discrete"
     if discrete and np.all(takes_options(task)):
-        # what is chosen from a catalogue is what it holds
+        # the limits of a catalogue are its options
         return best.limits
     if incumbent is not None:
         value = float(program.values(incumbent.unbalance, _CLOSE).goals[-1])
@@ -298,7 +298,7 @@ def _heavy_enough(task: Task, mass: Real) -> bool:
 
 
 def _nominal_choice(task: Task, scene: Prepared, left_s: float) -> tuple[Complex | None, bool]:
-    """The best choice for the machine as it is given, if it is found; whether the limit of time left it open."""
+    """The best choice for the unchanged machine, if any; whether the limit of time left it open."""
     if left_s == 0.0:
         return None, True
     of_machine = best_choice(task.nominal(left_s), scene, in_full=False)

@@ -1,7 +1,7 @@
-"""What counterweights that are chosen cost at least, under levels of goals: their mass, their number, their sizes.
+"""The smallest costs of choices under levels of goals: their mass, their number, their sizes.
 
-The fewest that keep a level are found by halving: for a number of them the smallest of the last goal is sought, until
-it is below the level, or proven to be above it. The least mass is a goal as others are; of one goal of the first order
+Bisection gives the fewest that keep a level. For a number of them the smallest of the last goal is sought, until
+it is below the level, or proven to be above it. The least mass is a goal as others are. Of one goal of the first order
 light sets are compared outright.
 """
 
@@ -36,7 +36,7 @@ from optimizer.solve.few_webs import UNKNOWN, FewWebs, compare_on_few_webs, few_
 from schemas.request.objective import Cost
 
 _LOG = logging.getLogger(__name__)
-#: width of the brackets by which sets are told apart, as a share of goals
+#: width of the brackets that compare sets, as a share of goals
 _CLOSE = 1e-10
 #: gap of a search for a number of castings, of any masses of least mass, and of the lightest choice
 _GAP, _SHARP, _LIGHT = 1e-3, 1e-6, 1e-9
@@ -46,7 +46,7 @@ _FIRST = 0.6
 _COUNTS = ((40, 120), (80, 300))
 #: share of the time in which the fewest castings are made lighter
 _LIGHTER = 0.1
-#: where a set was found that was compared with others; what that proves is told beside it
+#: of a set that was compared with others; its proof stands beside it
 COMPARED = SearchResult(True, -np.inf, 0, EXHAUSTED)
 
 
@@ -58,9 +58,9 @@ def _of_parts(options: Options, selection: np.ndarray) -> Options:
 
 
 class Least(NamedTuple):
-    """The cheapest choice that was found, and what none is cheaper than."""
+    """The cheapest choice of a search, and the lower bound of its cost."""
 
-    choice: Choice | None  # None where none was found that keeps the levels
+    choice: Choice | None  # None where the search has none that keeps the levels
     lower_bound: float  # kg, or a number
 
 
@@ -162,7 +162,7 @@ class Costs:
         self.offer(choices.picked(light, COMPARED))
 
     def _at_least(self, kind: Cost, level: float, high: int) -> int:
-        """The number that they are at least, by what is known without a search."""
+        """A lower bound of the number, without a search."""
         number = 0
         while number < high:
             # no size is no counterweight, one or more of them may be on all webs

@@ -19,7 +19,7 @@ from optimizer.program.methods.plate_sizes import SAME_SIZE
 from optimizer.solve.proof import implied_max_mass
 from schemas.machine.machine import Machine
 
-#: masses of plates are told with room for their rounding
+#: masses of plates in answers leave room for their rounding
 _CUT = 1.0 + 1e-9
 
 
@@ -49,7 +49,7 @@ def cut_plates(task: Task, scene: Prepared, goals: Goals, u: Complex, reached: L
     first, same = np.argmax(near, axis=1), np.arange(u.size)
     angle, same[of_machine.webs] = angle[first], of_machine.webs[first]
     task = replace(task, machine=fitted(task.machine, angle))
-    # the price of a budget is that of its pieces: what a plate is worth is told where it is full
+    # the price of a budget is that of its pieces: a plate has a price of its own where it is full
     within = limits_of_cut(limits(task.machine), reached, of_machine, of_machine.most)
     mass, towards = masses_and_angles(task.machine, u, within)
     goals = replace(goals, program=goals.program.changed(limits=within))

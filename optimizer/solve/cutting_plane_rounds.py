@@ -1,8 +1,8 @@
 """Choices for a program over the turn, in rounds: the best by finitely many cuts, what it truly comes to, and the cuts
 that tell the two apart.
 
-No choice comes to less than its cuts: what is proven of all choices by these holds over the turn. A choice whose own
-cuts are known is not found again for less than it comes to, so that rounds end with the gap that is asked.
+No choice comes to less than its cuts: what is proven of all choices by these holds over the turn. A choice with its
+own cuts in the program cannot return below its true value, so that rounds end at the target gap.
 """
 
 from collections.abc import Callable, Sequence
@@ -23,13 +23,13 @@ from optimizer.program.cuts.semi_infinite import Problem
 from optimizer.program.methods.discs import in_discs
 from optimizer.solve.answer_fields import bound_beside
 
-#: width of the brackets by which choices are told apart, as a share of goals and ceilings
+#: width of the brackets that compare choices, as a share of goals and ceilings
 _CLOSE = 1e-10
-#: what a search may leave open of the gap that is asked, and of the gap that is left as long as that is more
+#: what a search may leave open of the target gap, and of the present gap as long as that is more
 _GAP_SHARE, _LEFT = 0.5, 0.25
 #: share of the time left that a search has, unless the one before has shown nothing new
 _TURN = 0.3
-#: angles at which every peak has a cut from the start: what is chosen by few cuts is good at those alone
+#: angles at which every peak has a cut from the start: choices by few cuts are good at those alone
 _ANGLES = 24
 #: choices whose rows a tree is of
 _RECENT = 8
@@ -45,7 +45,7 @@ class Start(NamedTuple):
     incumbent: Choice | None = (
         None  # that keeps ceilings and goals; where goals come first and are solved there has to be one
     )
-    level: float = -np.inf  # once it is told whether any comes to no more, no more is asked; -inf asks for the best
+    level: float = -np.inf  # the search ends once it is decided whether any comes to no more; -inf asks for the best
     hints: Sequence[Complex] = ()  # (K,) kg m, near which good choices may be
 
 
@@ -61,13 +61,13 @@ def in_rounds(
     left_s: Callable[[], float],
     start: Start = _NOTHING,
 ) -> tuple[Choice, SearchResult]:
-    """The best choice, and what is proven of all that may be chosen.
+    """The best choice, and what is proven of all.
 
     Parameters
     ----------
     program : whose last goal is to be small.
     best : its optimum of any masses at any angles, with the most that the goals before it may come to.
-    relative_gap : that is asked.
+    relative_gap : target gap.
     size : what gaps are relative to, in units of the goal.
     left_s : what is left of the time limit.
     """
@@ -78,7 +78,7 @@ def in_rounds(
     most = np.array([goal.most for goal in best.goals[:-1]])
     kinds = program.goal_of_case
     if program.finite is not None and incumbent is None:
-        # all is known of it
+        # the program is exact, and needs no cuts
         whole = choices.relaxation(replace(program.finite, limits=best.limits))
         last = choices.best(Subproblem(whole, points, relaxation_bound, relative_gap, size, left_s()))
         result = last.result
@@ -104,7 +104,7 @@ def in_rounds(
         loose = in_discs(under_levels(statement, program, most, bound, _STEEP), choices.reach, inside=False)
         below = single_group(loose, case_of, recent, FEW, kinds)
         if choices.solved:
-            # what comes to less than is known keeps the goals that come first
+            # a choice below the incumbent keeps the goals that come first
             whole = in_discs(under_levels(statement, program, most, least, _STEEP), choices.reach, inside=True)
             whole = single_group(whole, case_of, recent, FEW, kinds)
         else:
@@ -126,7 +126,7 @@ def in_rounds(
         closed = least - bound <= max(gap, resolution) or least <= level or -np.inf < level < bound
         learnt = _learn(program, pool, last.unbalance)
         if most.size:
-            # levels are told apart the better the closer both are
+            # closer brackets separate levels better
             learnt |= bound > before[0] + resolution or least < before[1] - resolution
         if closed or left_s() <= 0.0 or (stuck and not learnt):
             all_compared = closed and leader is last and result.proven

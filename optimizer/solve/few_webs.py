@@ -32,7 +32,7 @@ _BESIDE = 60_000
 
 
 class FewWebs(NamedTuple):
-    """What is known of any masses on few webs."""
+    """Bounds and points of any masses on few webs."""
 
     lower_bound: Real  # (M,) of the last goal, on some webs each, the best first
     points: Complex  # (M, K) kg m, their optima
@@ -40,7 +40,7 @@ class FewWebs(NamedTuple):
 
     @property
     def least(self) -> float:
-        """Of the last goal, on any of them; -inf where nothing is known."""
+        """Of the last goal, on any of them; -inf without a bound."""
         return float(np.min(self.lower_bound)) if self.lower_bound.size else -np.inf
 
 
@@ -104,7 +104,7 @@ def compare_on_few_webs(
             light = lighter(statement, options, candidates, min(level, float(statement.at_rest)), mass, clock).selection
             if light is not None:
                 offer(light)
-    # all that are no more than the level would have been found
+    # the search has compared all that are no more than the level
     return float(np.nextafter(level, np.inf)) if above and level <= incumbent.least else few.least
 
 

@@ -76,7 +76,7 @@ def report(
     conflict: BoundMultipliers | None,
     scenarios: tuple[str, ...] = (),
 ) -> Infeasibility:
-    """What is told where there are no counterweights: which ceilings conflict, and what can be reached.
+    """Why there are no counterweights: which ceilings conflict, and the smallest peaks within the limits.
 
     Parameters
     ----------
@@ -141,7 +141,7 @@ def unreachable(
     square = scene.omega_squared
     alone = goals.program.changed(ceilings=(), limited=())
     groups = {name: Group(rows=rows) for name, rows in _alone(task, goals, square).items()}
-    # of quantities those that the conflict is about, all that are limited where that is not told
+    # quantities in the conflict; all with ceilings if the proof does not name them
     at_fault = _under_ceilings(task, goals) if failure is None else _at_fault(failure)
     limited = {alone.quantities[limit.quantity].name: limit for limit in goals.limited}
     limited = {name: limit for name, limit in limited.items() if name in at_fault}

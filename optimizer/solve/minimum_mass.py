@@ -1,4 +1,4 @@
-"""Of the sets that can be chosen and keep the ceilings the lightest, with a certified gap."""
+"""The lightest of all sets that keep the ceilings, with a certified gap."""
 
 import numpy as np
 
@@ -31,7 +31,7 @@ _SHARP = 1e-6
 
 @record(frozen=True)
 class BestSet:
-    """The best set that may be chosen, by its objective or its mass, and what is proven of all."""
+    """The best of all sets, by its objective or its mass, and what is proven of all."""
 
     mass_kg: Real  # (K + S,) as drawn, with the weights that are fixed, those on balance shafts behind the others
     angle_deg: Real  # (K + S,)
@@ -51,12 +51,12 @@ def none_of(machine: Machine, status: str, reason: str, nodes: int, method: str)
 
 
 def minimum_mass(task: Task, scene: Prepared) -> BestSet:
-    """The lightest set that can be chosen and keeps the ceilings, of the first order or over the turn.
+    """The lightest of all sets that keep the ceilings, of the first order or over the turn.
 
     Raises
     ------
     OutOfRange
-        where the options of a web cannot be told.
+        where the options of a web are not determined.
     """
     gap, robust = task.relative_gap, Robust(task, scene, task.demand)
     program = robust.goals().anywhere
@@ -76,7 +76,7 @@ def _of_choice(task: Task, choice: Choice, result: SearchResult, gap: float, rea
 
     Parameters
     ----------
-    gap : relative, that is wanted.
+    gap : relative target gap.
     """
     lightest, bound = float(np.sum(choice.mass)), result.lower_bound
     status = "optimal" if result.feasible and lightest - bound <= gap * lightest else "inaccurate"

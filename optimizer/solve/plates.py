@@ -2,8 +2,8 @@
 
 The mass m(U) of a plate is convex. Tangents of it are webs in one plane, each with a radius and a largest mass of its
 own, which together are no heavier than what is cut: what is proven of them is proven of the plate. What they call for
-is cut, and is the answer. They are laid about where the answer is guessed to be, and closer about what they call for,
-until the gap is as asked. A budget holds of what is cut and not of its tangents: such programs are solved by cuts.
+is cut, and is the answer. Tangents are laid about a guess of the answer, and closer about what they call for,
+until the gap is at its target. A budget holds of what is cut and not of its tangents: such programs are solved by cuts.
 """
 
 from collections.abc import Sequence
@@ -40,11 +40,11 @@ from schemas.machine.machine import Machine
 
 #: how often nodes are laid
 _ROUNDS = 12
-#: how often a point without some webs is sought, each time about what was found before
+#: how often a point without some webs is sought, each time about the one before
 _CLEARINGS = 4
 #: of the way from one cut to another
 _PARTS = np.linspace(0.0, 1.0, 17)[1:-1]
-#: masses that are not told apart are at most this many times as large with the radius that is cut as with the longest:
+#: masses below the resolution are at most so many times as large with the radius of the cut as with the longest:
 #: the centre of half a disc is at 0.42 of its radius
 _NEARER = 2.5
 #: share of what optima may differ by that is used where webs are left empty
@@ -75,7 +75,7 @@ def cut_optimum(
 
 
 class _JudgedCut(NamedTuple):
-    """What is found of a cut, and what may be claimed of it."""
+    """A cut with its optima, and the claims that hold for it."""
 
     optima: Optima
     verdict: Verdict
@@ -92,7 +92,7 @@ class _JudgedCut(NamedTuple):
 
 
 class _Round(NamedTuple):
-    """What is found with what tangents prove."""
+    """One round: a cut, and the proof by tangents."""
 
     proven: Optima
     cut: CutWeights
@@ -106,7 +106,7 @@ class _CutSearch:
     symmetric: bool  # whether what is alike is to be alike
     whole: Statement  # (1,), whose limits are how far the plates reach
     plates: Plates
-    relative_gap: float  # that is asked of webs in place of plates
+    relative_gap: float  # target gap of webs in place of plates
     left: np.ndarray  # (K,) bool, webs that may carry something
 
     @cached_property
@@ -122,7 +122,7 @@ class _CutSearch:
         return yardstick(self.whole)
 
     def optimum(self, end: float) -> Optima:
-        """What is found with what is proven of it.
+        """The best cut with its proof.
 
         Parameters
         ----------
@@ -159,7 +159,7 @@ class _CutSearch:
         of_tangents, proven = self._optimum(tangents(self.plates, nodes))
         called_for = u = of_tangents.carried(proven.unbalance[0])
         if self.symmetric:
-            # no worse in any term, so that what is proven of those that were found holds
+            # no worse in any term, so that the proof of the optimum holds
             u = symmetric(whole, u[None], self.kinds)[0]
         angle = self.opened(u)
         mass = float(total_mass(whole, self.plates, u, angle))
@@ -258,7 +258,7 @@ class _CutSearch:
 
     def _judged_alike(self, outcome: _Round, nodes: Real) -> _JudgedCut:
         cut = self._alike(outcome, nodes)
-        # those that are chosen anew for it may be next to nothing
+        # free counterweights beside equal plates may be negligible
         alike_first = cut is not outcome.cut and not dust(self._masses(cut)).any()
         for cut_of in (cut, outcome.cut) if alike_first else (outcome.cut,):
             for equal in equal_sizes(self.whole, self.plates, cut_of):

@@ -47,7 +47,7 @@ def touched_by_mass(machine: Machine, mass_kg: Real) -> tuple[MachineLimit, ...]
 
 
 class ObjectiveUnit(NamedTuple):
-    """What an objective is told as: the objective over a weight is of this unit."""
+    """Unit of an objective in an answer: the objective over a weight is of this unit."""
 
     weight: float
     unit: str
@@ -96,7 +96,7 @@ def shadow_prices(
                 {
                     "limit": limit,
                     "web": web,
-                    # where a whole limit is worth less than the gap its price is not told from 0; a limit of 0 has one
+                    # where a whole limit is worth less than the gap its price counts as 0; a limit of 0 has one
                     "value": price * omega_squared / quantity.weight if size == 0.0 or price * size > gap else 0.0,
                     "unit": _UNITS[f"{quantity.unit}/{unit}"],
                 }
@@ -108,7 +108,7 @@ def shadow_prices(
 
 
 def of_limits(machine: Machine, prices: ShadowPrices) -> Iterator[Priced]:
-    """What every limit of mass and place costs that is given, web by web, then of the machine."""
+    """Prices of all limits of mass and place in the request, web by web, then of the machine."""
     of_webs = {
         name: (limit.unit, size.tolist(), limit.price(machine, prices).tolist())
         for name, (limit, size) in limit_sizes(machine).items()
@@ -125,7 +125,7 @@ def of_limits(machine: Machine, prices: ShadowPrices) -> Iterator[Priced]:
 
 
 def _of_ceilings(objective: Objective, prices: Real, omega_squared: float) -> Iterator[Priced]:
-    """What every ceiling of the first order costs that is given.
+    """Prices of all ceilings of the first order.
 
     Parameters
     ----------

@@ -2,7 +2,7 @@
 
 The program is in mass-radius products, forces over omega^2. A multiplier of the objective is the same in either; one
 of the mass, or of a ceiling alone, is per newton and so divided by omega^2. Ceilings are over omega^2 of the scenario
-whose response they limit, and all else is over that of the machine as it is given. Webs that cannot carry anything have
+whose response they limit, and all else is over that of the unchanged machine. Webs that cannot carry anything have
 no multipliers of their own, so none is missing where the program went without them.
 """
 
@@ -168,7 +168,7 @@ def excess_multipliers(excess: Statement, multipliers: Multipliers, scales: Real
     Parameters
     ----------
     scales : (rows,) what each ceiling is divided by in that program.
-    speeds : of all scenarios, or of the machine as it is given.
+    speeds : of all scenarios, or of the unchanged machine.
     """
     usable, _ = normalised(excess, multipliers)
     names = excess.names

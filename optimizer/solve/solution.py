@@ -1,4 +1,4 @@
-"""Counterweights that were chosen with what is proven of them, whatever was asked: for answers and rows of sweeps."""
+"""Counterweights with the proof of every claim about them, for answers and rows of sweeps."""
 
 import math
 from collections.abc import Mapping
@@ -34,14 +34,14 @@ class Solution:
 
     status: str
     reason: str
-    mass: Real  # (K + S,) kg, of the webs that are chosen, those of balance shafts behind those of the crankshaft
+    mass: Real  # (K + S,) kg, of the free webs, those of balance shafts behind those of the crankshaft
     angle: Real  # (K + S,) degrees
     unbalance: Complex  # (K + S,) kg m
     placement: Fitted
     certificate: Certificate
     fields: dict[str, object]  # of the answer beside these
     certify_s: float  # time spent on bounds
-    method: str  # by which that was found and proven
+    method: str  # of the search and of the proof
     nodes: int  # of the tree behind it; 0 where there is none
     report_s: float  # of the time, that spent on the fields
     cut: Prepared | None = None  # the scene with the radii of what is cut from plates; None where nothing is
@@ -58,7 +58,7 @@ class Solution:
 
 @record(frozen=True)
 class Infeasible:
-    """What is proven where no counterweights keep the ceilings, or none that may be chosen."""
+    """The proof that no counterweights, or no choices, keep the ceilings."""
 
     status: str
     reason: str
@@ -104,7 +104,7 @@ class Proofs(NamedTuple):
 
     @classmethod
     def of(cls, optimum: CertifiedOptimum, omega_squared: float, speeds: Speeds) -> "Proofs":
-        """Those of what was found.
+        """Proofs of an optimum.
 
         Parameters
         ----------

@@ -1,4 +1,4 @@
-"""Certified counterweights of one task, whatever it asks for and however they may be chosen."""
+"""Certified counterweights of one task, of any objective and of any feasible set."""
 
 from optimizer.formulation.simulation import Prepared
 from optimizer.formulation.task import Task
@@ -13,12 +13,12 @@ def solve(task: Task, scene: Prepared, in_full: bool = True, worst_case: bool = 
     Parameters
     ----------
     in_full : with prices of the limits and what misplaced counterweights may cost.
-    worst_case : with what the worst case costs beside the best of the machine as it is given, which is another search.
+    worst_case : with the cost of the worst case beside the best of the unchanged machine, which is another search.
 
     Raises
     ------
     OutOfRange
-        where the options of a web cannot be told, or webs of a group are unlike.
+        where the options of a web are not determined, or webs of a group are unlike.
     MissingInput
         if a machine lacks what the objective needs.
     """

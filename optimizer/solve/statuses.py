@@ -92,13 +92,13 @@ def ample_reason(reason: str, result: SearchResult, of_any: float) -> str:
 
 
 class SearchProof(NamedTuple):
-    """What a search has proven of all that may be chosen."""
+    """The proof of a search about all choices."""
 
     ended: SearchResult  # of the last goal
     nodes: int  # of the trees of all goals
     rounds: int  # likewise
     bounds: Sequence[float] | None  # of the goals before it, over omega^2; None: of goals in order nothing is proven
-    closed: bool  # the gaps of all goals are the asked ones
+    closed: bool  # the gaps of all goals are at most the target gap
     levels: Sequence[GoalReached] = ()  # all goals in their order, where some are what castings cost
 
     @property

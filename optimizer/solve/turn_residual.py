@@ -22,7 +22,7 @@ def with_turn(residual: Residual, scene: Prepared, unbalance: Complex | None) ->
 
     Parameters
     ----------
-    unbalance : (K + S,) kg m, of the counterweights that were chosen and, behind them, on the balance shafts; None
+    unbalance : (K + S,) kg m, of the counterweights of the answer and, behind them, on the balance shafts; None
         where there are none to show.
     """
     turn, goal = whole_turn_of(scene, scene.objective), scene.objective

@@ -1,9 +1,9 @@
-"""The program of one task: of the machine as it is given, or of several; counterweights may be a little off.
+"""The program of one task: of the unchanged machine, or of several; counterweights may be a little off.
 
-Scenarios are cases of one program; without any the machine as it is given is the only one. What counterweights are off
-by is part of it. Of reciprocating masses that scatter
-the worst corner of every peak is known once the counterweights are; such corners are added as variants of their case
-until the counterweights have none that is worse: then the program is that of all corners.
+Scenarios are cases of one program; without any the unchanged machine is the only one. Tolerances of counterweights are
+part of it. Of reciprocating masses that scatter the worst corner of every peak depends on the counterweights. Such
+corners are added as variants of their case until the counterweights have none that is worse. Then the program is that
+of all corners.
 """
 
 import time
@@ -38,7 +38,7 @@ from schemas.base.model import FieldProblem
 from schemas.base.target import pointer
 from schemas.request.scenarios import Tolerances
 
-#: a corner that is worse by less than this share is as good as known
+#: a corner that is worse by less than this share is as good as one in the program
 _ALIKE = 1e-14
 #: times that corners are added before it ends with what is proven
 MOST_ROUNDS = 60
@@ -65,7 +65,7 @@ def scatter_of(tolerances: Tolerances | None) -> Scatter:
 
 @record(frozen=True)
 class MachineOfCase:
-    """The machine as it is given, or that of a scenario, with reciprocating masses that scatter."""
+    """The unchanged machine, or that of a scenario, with reciprocating masses that scatter."""
 
     space: DesignSpace  # with the webs of its balance shafts behind those of the crankshaft
     scene: Prepared
@@ -127,7 +127,7 @@ class MachineOfCase:
 
 
 class Robust:
-    """The program of one task, as far as the worst masses are known where they scatter."""
+    """The program of one task, with the worst masses so far where they scatter."""
 
     def __init__(
         self, task: Task, scene: Prepared, demand: Demand, machines: Sequence[MachineOfCase] | None = None
@@ -154,7 +154,7 @@ class Robust:
                     scene.simulated.join(machine.scene.simulated, "scenarios")
         self.machines = [entry if entry.share == share else replace(entry, share=share) for entry in machines]
         self._until = time.thread_time() + demand.time_limit_s
-        #: signs of the changes of masses that are known of every machine
+        #: signs of the changes of masses so far, of every machine
         self._signs: list[list[Real]] = [[] for _ in self.machines]
         if self.scatters:
             self.learnt(np.zeros(len(self.space.machine.webs), complex))
@@ -175,7 +175,7 @@ class Robust:
         return max(self._until - time.thread_time(), 0.0)
 
     def goals(self) -> Goals:
-        """The program with the changes of masses that are known."""
+        """The program with the changes of masses so far."""
         goals = self.goals_at(self._signs)
         return replace(goals, of_all_masses=self._of_all_masses) if self.scatters and self.measures else goals
 
@@ -190,13 +190,13 @@ class Robust:
         return self.goals_at([list(np.unique(corners, axis=0)) for corners in every]).program
 
     def learnt(self, *unbalances: Complex) -> bool:
-        """Whether counterweights (K,), one set or several, have shown changes of masses worse than those known."""
-        # of all of them, so that what is known holds for each
+        """Whether counterweights (K,), a set or several, show changes of masses that are worse than those so far."""
+        # of all of them, so that the changes so far hold for each
         worse = [self._has_worse(u) for u in unbalances if self.scatters]
         return any(worse)
 
     def _has_worse(self, u: Complex) -> bool:
-        """The same of one set, whose worse changes are known from then on."""
+        """The same of one set, whose worse changes count from then on."""
         new = [
             list(self._worse(machine, changes, u)) for machine, changes in zip(self.machines, self._signs, strict=True)
         ]
@@ -224,13 +224,13 @@ class Robust:
                 return goals, result
             if result.timed_out:
                 break
-        # judged by all that is known: the gap tells what is left open
+        # judged by all changes so far: the gap is what stays open
         return self.goals(), result
 
     def _cut(self, program: Problem) -> CertifiedOptimum | Conflict | None:
         """The optimum of a cone program of plates; None of other problems.
 
-        A budget holds of what is cut and not of its tangents, by which it is found here.
+        A budget holds of what is cut. This optimum has a budget of the tangents.
         """
         cut, budget = plates(self.space.machine), program.limits.max_total_mass < np.inf
         statement = None if cut is None or budget else cone_program(program, self.demand.least_mass)

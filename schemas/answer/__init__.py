@@ -1,1 +1,1 @@
-"""What an answer holds: counterweights with their proof, and the outputs that a request may ask for."""
+"""Answers: counterweights with their proof, and the outputs that a request may name."""

@@ -1,4 +1,4 @@
-"""What can be asked for, and what it takes: the outputs, the effects behind them, the inputs that they read."""
+"""The list of outputs and effects: the outputs, the effects behind them, the inputs that they read."""
 
 from pydantic import Field
 

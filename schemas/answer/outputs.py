@@ -1,4 +1,4 @@
-"""All outputs: their fields in an answer, the names by which they are asked for, their columns in a sweep."""
+"""All outputs: their fields in an answer, their names in a request, their columns in a sweep."""
 
 from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING, Annotated, Literal, NamedTuple

@@ -2,7 +2,7 @@
 
 An answer of 16 rows has 137,000 such numbers. Nearly all of them go from the arrays of the optimiser into JSON; a
 Python float of each would cost a third of the answer. This module does without numpy, as all schemas do: an array is
-known by its type's name, and read by what every array has.
+identified by its type's name, and read by what every array has.
 """
 
 import sys

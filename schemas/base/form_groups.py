@@ -1,6 +1,6 @@
 """Under which headings, and in which order, a form shows the fields of the requests' large models.
 
-Headings stand in the order of a person's work: what the thing is, what must be known of it, what may be asked besides.
+Headings stand in the order of a person's work: what the thing is, its data, its outputs.
 A model that is built on another one has the headings of that one as well, behind its own.
 """
 

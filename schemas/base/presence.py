@@ -1,6 +1,6 @@
 """Which fields of a model go together, for its JSON schema: conditions (if, then) that its rules state in words.
 
-A field is given where it is there and not null.
+A field is present where it is there and not null.
 """
 
 from typing import Any
@@ -11,12 +11,12 @@ _NULL = {"type": "null"}
 
 
 def present(*names: str) -> Schema:
-    """All of some fields are given."""
+    """All of some fields are present."""
     return {"properties": {name: {"not": _NULL} for name in names}, "required": list(names)}
 
 
 def absent(*names: str) -> Schema:
-    """None of some fields is given."""
+    """None of some fields is present."""
     return {"properties": dict.fromkeys(names, _NULL)}
 
 
@@ -36,17 +36,17 @@ def when(condition: Schema, then: Schema, otherwise: Schema | None = None) -> li
 
 
 def either(first: str, *rest: str) -> list[Schema]:
-    """Where the first field is given, the others are not."""
+    """Where the first field is present, the others are not."""
     return when(present(first), absent(*rest))
 
 
 def alternatives(first: str, second: str) -> list[Schema]:
-    """One of two fields is given."""
+    """Exactly one of two fields is present."""
     return when(present(first), absent(second), present(second))
 
 
 def together(first: str, second: str) -> list[Schema]:
-    """Both of two fields are given, or none."""
+    """Both of two fields are present, or none."""
     return when(present(first), present(second), absent(second))
 
 

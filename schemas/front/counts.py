@@ -1,4 +1,4 @@
-"""What one counterweight, or one part number, more is worth: what is asked, and what is answered."""
+"""The worth of one more counterweight, or of one more part number: request and answer."""
 
 from typing import Literal
 

@@ -1,4 +1,4 @@
-"""The trade-off between peak force and peak moment: what is asked, and what is answered."""
+"""The trade-off between peak force and peak moment: request and answer."""
 
 from collections.abc import Iterator
 from typing import Annotated, Literal
@@ -73,7 +73,7 @@ class ParetoRequest(OptimizeRequest):
 
     @property
     def is_nonconvex(self) -> bool:
-        """Whether counterweights are chosen, heavy enough where they are fitted, or cut from plates."""
+        """Whether counterweights have options, minimum masses, or plates."""
         machine = self.machine
         return machine.choice is not None or any(web.envelope is not None for web in machine.webs)
 

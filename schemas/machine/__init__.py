@@ -1,1 +1,1 @@
-"""The machine of a request: shaft, throws, rows, webs, and what counterweights are chosen from."""
+"""The machine of a request: shaft, throws, rows, webs, and the catalogue of its counterweights."""

@@ -1,4 +1,4 @@
-"""Balance quality of a shaft after ISO 21940-11: what is asked of it, and what it comes to."""
+"""Balance quality of a shaft after ISO 21940-11: the grade of a request, and the grade of an answer."""
 
 from collections.abc import Iterator
 from typing import Annotated

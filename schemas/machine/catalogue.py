@@ -12,7 +12,7 @@ from schemas.base.rules import Path, Rule, Ruled
 from schemas.base.units import Unit, positive
 
 MAX_MASSES, MAX_HOLES = 1_000, 720
-#: certified gap that discrete choices are asked for where nothing is said
+#: default of the certified gap for discrete choices
 DISCRETE_GAP = 1e-3
 #: by which an angle may be outside of its sector, degrees: the rounding of angles of a turn, which bounds allow for
 _ANGLE = 2e-13

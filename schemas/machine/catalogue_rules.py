@@ -1,4 +1,4 @@
-"""Rules between a catalogue and the webs that are chosen from it."""
+"""Rules between a catalogue and its webs."""
 
 from collections.abc import Iterator, Sequence
 

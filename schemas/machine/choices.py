@@ -1,4 +1,4 @@
-"""The fields by which a web says what may be chosen for it, of finitely many: every kind of choice.
+"""The fields of a web with finitely many options for its counterweight: every kind of choice.
 
 One more kind is one more field of :class:`schemas.machine.webs.Web` and one more entry here. All that looks at choices
 goes by this table: rules, options, equal castings, refusals of studies, reports.
@@ -54,7 +54,7 @@ def _holes(angles: Any, web: Any) -> Iterator[Rule]:
 
 
 def sector_rules(path: tuple[str | int, ...], angle_deg: Any, web: Any, subject: str) -> Iterator[Rule]:
-    """What is chosen stands in the sector of its web."""
+    """Every option stands in the sector of its web."""
     if web.sector is not None:
         inside = in_sector(angle_deg, web.sector.centre_deg, web.sector.half_angle_deg)
         yield Rule(not inside, path, f"{subject} is outside the sector")
@@ -75,7 +75,7 @@ CHOSEN = frozenset({*KINDS, "min_fitted_mass_kg"})
 
 
 def stated(web: Any) -> list[str]:
-    """Fields by which a web says what may be chosen for it."""
+    """Fields of a web with options for its counterweight."""
     if KINDS.keys().isdisjoint(web.model_fields_set):
         return []
     return [name for name in KINDS if getattr(web, name) is not None]
@@ -88,7 +88,7 @@ def own_options(web: Any) -> OwnOptions:
     masses = tuple(mass for mass, angle in every if mass is not None and angle is None)
     angles = tuple(angle for mass, angle in every if mass is None and angle is not None)
     pairs = tuple((mass, angle) for mass, angle in every if mass is not None and angle is not None)
-    # of an empty list nothing may be chosen
+    # an empty list leaves no option
     return OwnOptions(
         masses if "mass" in parts else None, angles if "angle" in parts else None, pairs if "both" in parts else None
     )

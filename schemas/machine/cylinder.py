@@ -1,4 +1,4 @@
-"""Gas data of a cylinder. Whether they are complete is asked by the effect that needs them."""
+"""Gas data of a cylinder. The effect that needs them checks whether they are complete."""
 
 from collections.abc import Iterator
 from typing import Annotated, Any, Literal

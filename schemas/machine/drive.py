@@ -1,4 +1,4 @@
-"""Friction, flywheel and main bearings of a machine; each is needed only by the outputs that ask for it."""
+"""Friction, flywheel and main bearings of a machine; each is an input of some outputs only."""
 
 from collections.abc import Iterator
 from typing import Annotated

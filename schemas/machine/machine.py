@@ -1,4 +1,4 @@
-"""The machine of a request, told apart by its kind. Frame and signs: docs/mathematics.md section 1."""
+"""The machine of a request, one of several kinds. Frame and signs: docs/mathematics.md section 1."""
 
 from typing import Annotated
 

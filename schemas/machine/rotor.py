@@ -103,7 +103,7 @@ class Rotor(Ruled):
             yield Rule(web.envelope is not None, ("webs", k, "envelope"), message)
 
     def _group_rules(self) -> Iterator[Rule]:
-        """Every web of a group is there, in no other, and chosen."""
+        """Every web of a group exists, is in no other, and has options."""
         yield from unique_names(("web_groups",), [group.name for group in self.web_groups])
         webs, members = {web.name: web for web in self.webs}, set[str]()
         for i, group in enumerate(self.web_groups):
@@ -137,7 +137,7 @@ class Rotor(Ruled):
 
     @property
     def choice(self) -> Choice | None:
-        """What counterweights are chosen from; None is any mass at any angle."""
+        """The kind of options for counterweights; None is any mass at any angle."""
         if self.catalogue is not None or self.max_counterweights is not None:
             return "discrete"
         least = False
@@ -150,7 +150,7 @@ class Rotor(Ruled):
 
     @property
     def discrete(self) -> bool:
-        """Whether counterweights are chosen from what there is."""
+        """Whether counterweights have finitely many options."""
         return self.choice == "discrete"
 
     @property
@@ -195,7 +195,7 @@ def _repetitions(path: Path, names: Sequence[str | None]) -> Iterator[Rule]:
 
 
 def no_catalogue(machine: Rotor, path: Path, subject: str) -> Iterator[Rule]:
-    """Refuses discrete choices where counterweights of any mass and angle are chosen."""
+    """Refuses discrete choices where counterweights have any mass and angle."""
     least = (
         (*place, k, "min_fitted_mass_kg")
         for place, webs in machine.web_lists()
@@ -207,6 +207,6 @@ def no_catalogue(machine: Rotor, path: Path, subject: str) -> Iterator[Rule]:
 
 
 def no_groups(machine: Rotor, path: Path, subject: str) -> Iterator[Rule]:
-    """Refuses identical castings where counterweights are chosen one by one."""
+    """Refuses identical castings where counterweights are independent."""
     message = f"serves only to choose the counterweights of a machine, not {subject}"
     yield Rule(bool(machine.web_groups), (*path, "web_groups"), message)

@@ -17,7 +17,7 @@ MAX_THROWS = 500
 MAX_ROWS = 60
 MAX_CYLINDERS = 8
 
-#: share of a rod that moves with the crosshead, where nothing is known of it
+#: default share of a rod that moves with the crosshead
 _CUSTOMARY_SHARE = 1 / 3
 
 

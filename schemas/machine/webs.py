@@ -17,7 +17,7 @@ from schemas.machine.throws import MAX_THROWS
 #: largest inner radius, as a share of the outer one
 _INNERMOST = 0.999
 MAX_GROUPED = 500
-#: fields that say what may be chosen for a web
+#: fields of a web with options for its counterweight
 _CHOSEN = (
     "envelope", "sector", *CHOICES, "max_centrifugal_force_N", "min_fitted_mass_kg",
 )  # fmt: skip
@@ -179,7 +179,7 @@ class Web(Ruled):
 
     @property
     def reach_m(self) -> float:
-        """Radius to which a counterweight reaches at most: that of its centre of mass, where no more is known."""
+        """Radius to which a counterweight reaches at most: without an envelope that of its centre of mass."""
         return self.envelope.outer_radius_m if self.envelope else self.radius_m or 0.0
 
     def rules(self) -> Iterator[Rule]:

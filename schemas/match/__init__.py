@@ -1,1 +1,1 @@
-"""Which parts of a set go on which row of a machine."""
+"""Matching: which parts of a set go on which row of a machine."""

@@ -1,4 +1,4 @@
-"""Which weighed part goes on which row: what is asked."""
+"""The request for a matching: which weighed part goes on which row."""
 
 from collections.abc import Iterator
 from typing import Annotated

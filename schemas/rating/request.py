@@ -1,4 +1,4 @@
-"""The thermal design of a compressor as it is asked for. After the design calculation of the 2D12, (1-1) to (1-32)."""
+"""The thermal design of a compressor: the request. After the design calculation of the 2D12, (1-1) to (1-32)."""
 
 from collections.abc import Iterator
 from itertools import pairwise

@@ -1,1 +1,1 @@
-"""What is asked about one machine, and the answers that belong to one request alone."""
+"""Requests about one machine, and answers that belong to one request alone."""

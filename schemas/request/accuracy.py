@@ -1,4 +1,4 @@
-"""What accuracy costs in time on a machine: what is asked, and the ladders of methods that answer it."""
+"""What accuracy costs in time on a machine: the request, and the ladders of methods that answer it."""
 
 from collections.abc import Iterator
 from typing import Annotated, Literal
@@ -23,7 +23,7 @@ class AccuracyRequest(OptimizeRequest):
 
     @property
     def has_production_limits(self) -> bool:
-        """Whether counterweights are as a workshop makes them: chosen, at least so heavy, alike, or cut from plates."""
+        """Whether counterweights are as a workshop makes them: options, minimum masses, equal castings, or plates."""
         machine = self.machine
         cut = any(web.envelope is not None for web in machine.webs)
         return machine.choice is not None or bool(machine.web_groups) or cut

@@ -14,7 +14,7 @@ from schemas.request.scene import Scene
 
 
 class Case(NamedTuple):
-    """A machine that the counterweights are to suit: the one that is given, changed.
+    """A machine that the counterweights are to suit: that of the request, with changes.
 
     name, changes : of the request, where its name and its changes are stated.
     values : the same of the value of every change.
@@ -52,7 +52,7 @@ KINDS: dict[str, CaseKind] = {
     "scenarios": CaseKind((), _cases_of, change_rules),
     # beside this one
 }
-#: fields of a request about the machine as it is given
+#: fields of a request about the unchanged machine
 NOMINAL: Mapping[str, Any] = {field: kind.default for field, kind in KINDS.items()}
 
 
@@ -63,7 +63,7 @@ def stated(request: Scene) -> Iterator[str]:
 
 
 def cases(request: Scene) -> tuple[Case, ...]:
-    """All cases of a request; the machine as it is given is one only where it is among them."""
+    """All cases of a request; the unchanged machine is one only where it is among them."""
     return tuple(case for field in stated(request) for case in KINDS[field].cases(getattr(request, field)))
 
 

@@ -70,7 +70,7 @@ def of_the_shaft(names: Iterable[str]) -> bool:
 
 
 def outputs_about(names: Collection[str]) -> tuple[str, ...]:
-    """Outputs that show what these fields are about: an answer holds them, whether they were asked for or not."""
+    """Outputs that show what these fields are about: an answer always holds them."""
     loads, roll = of_the_shaft(names), "roll_weight" in names
     return (*(("main_bearings",) if loads else ()), *(("roll",) if roll else ()))
 
@@ -176,7 +176,7 @@ class Objective(Ruled):
 
     @property
     def over_the_turn(self) -> tuple[str, ...]:
-        """Fields by which more is asked than one goal of the first order on the frame."""
+        """Fields of goals beyond one of the first order on the frame."""
         if OVER_THE_TURN.keys().isdisjoint(self.__pydantic_fields_set__):
             return ()
         own = vars(self)

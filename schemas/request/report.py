@@ -1,4 +1,4 @@
-"""What a report is asked for: the optimisation, what its head says, and the versions that it compares."""
+"""The request for a report: the optimisation, its head, and the versions that it compares."""
 
 from collections.abc import Iterator
 from datetime import date

@@ -30,7 +30,7 @@ from schemas.request.scene import Scene
 
 #: ways round what does not go together, see docs/api/together.md
 _FIX_THE_CHOICE = "choose without, then ask with the choice as fixed weights"
-#: certified gap that masses of any size are asked for where nothing is said
+#: default of the certified gap for masses of any size
 _GAP = 1e-6
 
 
@@ -123,7 +123,7 @@ class OptimizeRequest(Scene, Ruled):
 
     @property
     def robust(self) -> bool:
-        """Whether more counts than the machine as it is given."""
+        """Whether more counts than the unchanged machine."""
         return any(True for _ in stated(self)) or (self.tolerances is not None and self.tolerances.any)
 
     @property
@@ -133,7 +133,7 @@ class OptimizeRequest(Scene, Ruled):
 
     @property
     def cases(self) -> tuple[Case, ...]:
-        """Machines that the counterweights are to suit in place of the one that is given, if any are stated."""
+        """Machines that the counterweights are to suit in place of the unchanged one, if any."""
         return cases(self)
 
     def rules(self) -> Iterator[Rule]:
@@ -157,12 +157,12 @@ class OptimizeRequest(Scene, Ruled):
             yield Rule(scatters, ("tolerances", "reciprocating_mass_relative"), message)
 
     def envelope_rules(self, message: str) -> Iterator[Rule]:
-        """Envelopes that are given where only a counterweight of a known radius can be asked for."""
+        """Envelopes where only a counterweight of a fixed radius is possible."""
         for broken, path, text in self.machine.no_envelopes(message):
             yield Rule(broken, ("machine", *path), text)
 
     def allowance_rules(self, message: str) -> Iterator[Rule]:
-        """Allowances that are given where no cheaper choices are listed."""
+        """Allowances without a list of cheaper choices."""
         yield Rule(bool(self.alternatives), ("alternatives",), message)
 
     def _alternative_rules(self, choice: Choice | None) -> Iterator[Rule]:
@@ -225,7 +225,7 @@ class OptimizeRequest(Scene, Ruled):
 
     @property
     def with_usual_gap(self) -> Self:
-        """The same with the gap that its machine is usually asked for, where none is said."""
+        """The same with the default gap of its machine in place of None."""
         return self.model_copy(update={"accuracy": self._usual_accuracy})
 
     @model_validator(mode="after")

@@ -1,4 +1,4 @@
-"""Counterweights on the steps of a workshop: what is asked, and what the steps cost."""
+"""Counterweights on the steps of a workshop: the request, and what the steps cost."""
 
 from collections.abc import Iterator
 from typing import Annotated

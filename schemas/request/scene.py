@@ -1,4 +1,4 @@
-"""A machine and what is asked about it: what every request about one machine begins with."""
+"""A machine and the outputs about it: the beginning of every request about one machine."""
 
 from typing import Literal
 

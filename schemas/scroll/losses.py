@@ -1,4 +1,4 @@
-"""Losses of the anti-rotation pins of a scroll beside those of an Oldham ring: what is asked, and what is answered."""
+"""Losses of the anti-rotation pins of a scroll beside those of an Oldham ring: request and answer."""
 
 from typing import Annotated
 

@@ -1,4 +1,4 @@
-"""Loads of the anti-rotation pins of a scroll: what is asked, and what is answered.
+"""Loads of the anti-rotation pins of a scroll: request and answer.
 
 Equations (1) to (3) are those of Liu, Zhao and Li, "Anti-rotation by small crank pins in a scroll compressor" (2006).
 
@@ -90,7 +90,7 @@ class PinLoadsRequest(Ruled):
 
     @property
     def count(self) -> int:
-        """Number of pins, however they are given."""
+        """Number of pins, from any of the fields."""
         return len(self.pins) if self.pins is not None else self.pin_count or 0
 
     @property

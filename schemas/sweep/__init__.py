@@ -1,1 +1,1 @@
-"""Sweeps: the request, its axes, the columns of its result, and what is answered about it."""
+"""Sweeps: the request, its axes, the columns of its result, and answers about its state."""

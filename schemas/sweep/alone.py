@@ -1,4 +1,4 @@
-"""Designs that are certified each by itself: chosen from a catalogue, heavy enough, cut from plates, alike, or off."""
+"""Designs that are certified each by itself: with options, minimum masses, plates, equal castings, or tolerances."""
 
 from collections.abc import Iterator, Sequence
 from itertools import chain
@@ -32,7 +32,7 @@ def separate(base: OptimizeRequest | AnalyzeRequest, targets: Sequence[Target]) 
 
 
 def alone_problems(base: OptimizeRequest | AnalyzeRequest) -> Iterator[FieldProblem]:
-    """What only an optimum of one design after the other can be asked for."""
+    """Fields that only an optimum of one design after the other can have."""
     if isinstance(base, OptimizeRequest):
         return
     subject = "a sweep of what is analyzed"

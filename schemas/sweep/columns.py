@@ -58,7 +58,7 @@ PRICE = {
 WORST_LOAD = "worst_case_bearing_peak_N"
 #: numbers of the certificate that a row holds, by the names of its fields
 CERTIFICATE = tuple(column.name for column in _CERTIFICATE if column.kind == "number")
-#: column of the proofs, which comes only if asked for
+#: column of the proofs, of sweeps with `multipliers`
 MULTIPLIERS = "multipliers"
 _TOTAL_MASS = Column("total_mass_kg", "number", "kg", "total mass of the counterweights")
 _SHAFTS_MASS = Column("balance_shafts_mass_kg", "number", "kg", "total mass of what the balance shafts carry")
@@ -75,7 +75,7 @@ def result_columns(
 
     Parameters
     ----------
-    always : outputs that rows hold whether they were asked for or not.
+    always : outputs with columns in every row, whether the request names them or not.
     details : whether those in detail come along.
     """
     columns: dict[str, Column] = {}

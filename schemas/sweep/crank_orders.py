@@ -1,4 +1,4 @@
-"""Orders of given crank angles along a shaft, and which of them are the same machine.
+"""Orders of the crank angles along a shaft, and which of them are the same machine.
 
 A machine is the same when all cranks are turned alike (only the moment changes at which it is looked at), seen in a
 mirror along the shaft (its rows are those of the image, and it turns the other way), and seen from its other end.
@@ -86,7 +86,7 @@ def crank_orders(
     Parameters
     ----------
     alike_across : whether all directions across the shaft count alike.
-    fitted : whether counterweights are given, which stand at angles and on webs of their own.
+    fitted : whether the request has counterweights, which stand at angles and on webs of their own.
     distinct : whether every sequence is a machine of its own, as scenarios change parts of some throws.
     """
     reduced = [angle % 360.0 for angle in angles_deg]
@@ -180,7 +180,7 @@ def _alike(first: Row, second: Row) -> bool:
 
 
 def _same_from_either_end(machine: Machine) -> bool:
-    """Whether throws, webs and bearings are the same from both ends, about the plane of moments if one is given."""
+    """Whether throws, webs and bearings are the same from both ends, about the plane of moments if there is one."""
     throws = machine.throws
     ends = throws[0].position_m + throws[-1].position_m
     size = max(abs(throw.position_m) for throw in throws)

@@ -1,4 +1,4 @@
-"""Columns in detail: figures of a single answer that rows of a sweep hold only where they are asked for by name, or all
+"""Columns in detail: figures of a single answer that rows of a sweep hold only if the request names them, or all
 of them by ``details``. Each costs time or room that most sweeps have no use for.
 """
 
@@ -53,7 +53,7 @@ def key(name: str) -> str:
 
 
 def usual_keys(output: str) -> frozenset[str]:
-    """Keys of the columns that an output brings wherever it is asked for."""
+    """Keys of the columns in detail of an output."""
     columns = COLUMNS_OF_PARTS[output].columns if output in COLUMNS_OF_PARTS else ()
     of_parts = (f"{column.name}." for column in columns)
     return frozenset((*(key(column.name) for column in OUTPUT_COLUMNS.get(output, ())), *of_parts))

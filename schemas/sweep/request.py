@@ -120,7 +120,7 @@ class SweepRequest(Ruled):
         return model.model_validate(value)
 
     def rules(self) -> Iterator[Rule]:
-        # each looks at what the ones before have found right
+        # each sees only what passed the checks before
         has_orders = self.design == "crank_orders"
         designs = (self._axis_problems, self._design_problems, self._search_problems)
         varied = (self._order_problems,) if has_orders else designs
@@ -176,7 +176,7 @@ class SweepRequest(Ruled):
 
     @property
     def always(self) -> tuple[str, ...]:
-        """Outputs that rows hold whether they were asked for or not."""
+        """Outputs with columns in every row, whether the request names them or not."""
         return outputs_about(self.over_the_turn)
 
     @property

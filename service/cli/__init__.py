@@ -28,10 +28,10 @@ from service.computations.table import COMPUTATIONS
 #: new objects before those are looked for that nothing holds any more; a first answer makes 220,000, nearly all of
 #: them modules and models
 _COLLECTED_AFTER = 250_000
-#: read by libraries when they are imported: matrices are small, and threads that wait for large ones take a fifteenth
-#: of a first answer; plugins of models are looked for in all that is installed
+#: read by libraries when they are imported. Matrices are small, and threads that wait for large ones take a fifteenth
+#: of a first answer. Plugins of models are looked for in all that is installed
 _LIBRARIES = {"OPENBLAS_NUM_THREADS": "1", "PYDANTIC_DISABLE_PLUGINS": "__all__"}
-#: setting of the service; at debug a fault of the program is told with its traceback
+#: setting of the service; at debug a fault of the program comes with its traceback
 _LOG_LEVEL = "COUNTERWEIGHT_LOG_LEVEL"
 
 

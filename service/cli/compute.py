@@ -11,7 +11,7 @@ import typer
 from service.cli.terminal import WORKBOOK, AsJson, File, answer, fail, put, read_input, show
 from service.computations.computation import Computation
 
-#: statuses that say that the answer is not what was asked for
+#: statuses of answers that fall short of the request
 _UNMET = ("infeasible", "inaccurate")
 _OPTIONS: dict[str, Any] = {
     "outputs": Annotated[

@@ -37,7 +37,7 @@ class Input(NamedTuple, Generic[Question]):
 
 
 def question(model: type[Question], file: str, fields: Mapping[str, object] | None = None) -> Question:
-    """The request in a file, with fields given on the command line in place of those in it."""
+    """The request in a file, with fields of the command line in place of those in it."""
     return read_input(model, file, fields).request
 
 

@@ -13,7 +13,7 @@ def json_bytes(answer: Model) -> bytes:
     """An answer as JSON, in bytes at once: all outputs are half a megabyte, which text would copy twice more.
 
     The bytes are those of pydantic. Answers that may have curves are written by orjson, which takes a third of the
-    time and writes curves as the arrays that they are; a test holds that their fields go out as they stand.
+    time and writes curves as the arrays that they are. A test holds that their fields go out as they stand.
     """
     if curve_fields(type(answer)):
         return orjson.dumps(answer, default=_contents(), option=orjson.OPT_SERIALIZE_NUMPY)

@@ -14,7 +14,7 @@ def coded(content: bytes, coding: Coding) -> bytes:
     """Content in a coding; what an answer saves by more effort costs more than to send it."""
     if coding == "gzip":
         return gzip.compress(content, compresslevel=1, mtime=0)
-    # asked for alone by few clients, and half as large as all else that a worker holds
+    # few clients want this coding alone, and it takes half as much memory as all else that a worker holds
     import pyarrow as pa
 
     data: bytes = pa.compress(content, codec=coding, asbytes=True)

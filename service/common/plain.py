@@ -25,8 +25,8 @@ _BLANK = (
 )
 # also in the widths of other scripts, which programs set to such take for these
 _SIGN = r"=+\-@" "\u2212\ufe62\ufe63\ufe66\ufe6b\uff0b\uff0d\uff1d\uff20"
-#: a spreadsheet takes a text that begins like this for a formula, and one with a separator of its own for two cells;
-#: for the readers of expressions of Python and of Arrow
+#: a spreadsheet takes a text that begins like this for a formula, and one with a separator of its own for two cells.
+#: The readers are those of expressions of Python and of Arrow
 FORMULA = rf"^(?:[{_BLANK}]*[{_SIGN}]|[\t\r\n])"
 SECOND_CELL = rf'([;\t\r\n][{_BLANK}"]*)([{_SIGN}])'
 #: what stands in place of such a second cell

@@ -32,7 +32,7 @@ FaultTable = Mapping[type[Exception], Callable[[Any], Fault]]
 
 
 def fixed(status: int, title: str, detail: str | None = None) -> Callable[[Exception], Fault]:
-    """A fault that a retry does not mend; its message is the detail if none is given."""
+    """A fault that a retry does not mend; its message is the default detail."""
     return lambda error: Fault(status, title, str(error) if detail is None else detail)
 
 

@@ -1,6 +1,6 @@
 """Time slices: for how long a thread computes before another of its core may.
 
-A thread with a short slice is woken at once, where a computation with a longer one runs: it need not wait for the next
+A thread with a short slice is woken at once while a computation with a longer one runs. It need not wait for the next
 tick of the clock, which is up to four milliseconds away. Its share of the core stays what its niceness says.
 
 Source: sched_setattr(2); Linux, Documentation/scheduler/sched-eevdf.rst. Linux heeds it from 6.12 on, and takes it
@@ -20,7 +20,7 @@ _LIBRARY = ctypes.CDLL(None, use_errno=True)
 _ATTRIBUTES = struct.Struct("=IIQiIQQQ")
 #: policies that know slices: those of ordinary threads
 _FAIR = (0, 3)
-#: of what answers as soon as it is asked [s], the least that the system takes
+#: of short answers [s], the least that the system takes
 SHORT_S = 0.0001
 
 

@@ -23,7 +23,7 @@ MAX_LIST_ITEMS = 50_000
 _FEW_BYTES = 2 * MAX_LIST_ITEMS
 _LONGEST_NAME = 64
 _LONGEST_INTEGER = 400
-#: so many digits in a row are found where all digits are the same one
+#: one search finds a long integer in a text whose digits are all replaced by 0
 _LONG_INTEGER, _SAME_DIGITS = b"0" * _LONGEST_INTEGER, bytes.maketrans(b"123456789", b"000000000")
 _BYTE_ORDER_MARK = b"\xef\xbb\xbf"
 _DISCRIMINATORS = ("kind", "type")
@@ -147,7 +147,7 @@ def json_value(text: str) -> object:
 
 
 def _has_long_integer(text: bytes) -> bool:
-    """Whether a number may be one that Python is not to read; to be told of each number costs half as much again."""
+    """Whether a number may be one that Python is not to read; a look at each number costs half as much again."""
     return _LONG_INTEGER in text.translate(_SAME_DIGITS)
 
 

@@ -1,7 +1,7 @@
 """What a computation of the service is: its models, the function that answers, and the forms of answers.
 
-A computation is data and refers to models and functions by name: to read one loads neither schemas nor optimiser, and
-it goes to a worker as it is, which looks up there what it refers to.
+A computation is data and refers to models and functions by name. To read one loads neither schemas nor optimiser. It
+goes to a worker as it is, which looks up there what it refers to.
 """
 
 from collections.abc import Callable
@@ -36,7 +36,7 @@ class Form:
 
     write : the function that makes bytes of the answer.
     suffix : of a file that holds it.
-    headers : what a client is told about it beyond its media type.
+    headers : of an answer in this form, beyond its media type.
     compressed : in itself, so that no coding makes it smaller.
     needs_request : whether the function takes the request too, before the answer.
     """
@@ -61,12 +61,12 @@ XLSX = "application/vnd.openxmlformats-officedocument.spreadsheetml.sheet"
 
 
 def request_bytes(request: "Model") -> bytes:
-    """A request as JSON: what was given, without defaults."""
+    """A request as JSON: the fields of the client, without defaults."""
     return request.model_dump_json(exclude_unset=True).encode()
 
 
 def echo_request(request: "Model") -> "Model":
-    """The request, where nothing is asked but that it is read and checked."""
+    """The request, for a route that only reads and checks it."""
     return request
 
 
@@ -87,7 +87,7 @@ class Computation:
     workbook : request, answer -> xlsx, for the command line; then requests may be workbooks too.
     examples : folder of example bodies.
     long : takes seconds: such computations have turns of their own, behind all others.
-    later : may be asked for as a job, by `Prefer: respond-async`.
+    later : may run as a job, by `Prefer: respond-async`.
     scope : what a key must allow.
     """
 

@@ -219,7 +219,7 @@ KINDS: Mapping[str, ProblemKind] = MappingProxyType(
 
 
 def kind_of(name: str) -> ProblemKind:
-    """What is known of a kind.
+    """The documentation of a kind.
 
     Raises
     ------

@@ -19,7 +19,7 @@ class DrawingSet:
     """What there is to be made.
 
     title : of the machine.
-    status : of the answer; given where the counterweights were.
+    status : of the answer; "given" without an optimisation.
     fitted : all counterweights, also those without a plate, which cannot be drawn.
     built : what is fitted beside the optimum, where the request says so; then `fitted` are those that are built.
     """
@@ -32,7 +32,7 @@ class DrawingSet:
 
 
 def drawings(request: DrawingsRequest) -> DrawingSet:
-    """The parts of the counterweights that are given, or of those that are fitted, or of the best ones.
+    """The parts of the counterweights of the request, or of those that are fitted, or of the best ones.
 
     Raises
     ------

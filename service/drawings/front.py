@@ -30,7 +30,7 @@ BUILT = SERIES[3]
 def front(layout: Layout) -> Drawing:
     """Cranks, axes of rows and counterweights, x to the right and y upwards.
 
-    Counterweights are true to shape where their shape is known; a dashed disc stands for the others. What is built in
+    Counterweights with an envelope are true to shape; a dashed disc stands for the others. What is built in
     place of them has no ground. Balance shafts are in their places.
     """
     machine, best, built = layout.machine, layout.best, layout.built

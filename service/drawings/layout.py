@@ -107,7 +107,7 @@ class Place(_Part):
 
     @property
     def reach_m(self) -> float | None:
-        """Radius to which a weight reaches: that of its centre of mass, where no more is known."""
+        """Radius to which a weight reaches: without an envelope that of its centre of mass."""
         return self.envelope.outer_radius_m if self.envelope else self.radius_m
 
 
@@ -157,7 +157,7 @@ class Balancer(_Part):
 
     @property
     def places(self) -> tuple[Place, ...]:
-        """Webs that are known."""
+        """Webs without empty places."""
         return tuple(filter(None, self.webs))
 
     @property
@@ -181,7 +181,7 @@ class _Shaft(_Part):
 
     @property
     def places(self) -> tuple[Place, ...]:
-        """Webs that are known."""
+        """Webs without empty places."""
         return tuple(filter(None, self.webs))
 
 
@@ -202,12 +202,12 @@ class CrankMachine(_Shaft):
 
     @property
     def cranks(self) -> tuple[tuple[str, Crank], ...]:
-        """Throws that are known, by name or by number from 1."""
+        """Throws without empty places, by name or by number from 1."""
         return tuple((throw.name or str(k), throw) for k, throw in enumerate(self.throws, start=1) if throw)
 
     @property
     def supports(self) -> tuple[tuple[str, Support], ...]:
-        """Main bearings that are known, by name or by number from 1."""
+        """Main bearings without empty places, by name or by number from 1."""
         return tuple((bearing.name or str(k), bearing) for k, bearing in enumerate(self.bearings, start=1) if bearing)
 
 
@@ -239,7 +239,7 @@ class Layout(_Part):
 
     @property
     def balance(self) -> tuple[Balance, ...]:
-        """The balance shafts that are known."""
+        """The balance shafts without empty places."""
         machine = self.machine
         shafts = filter(None, machine.balance_shafts) if isinstance(machine, CrankMachine) else ()
         return tuple(

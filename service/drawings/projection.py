@@ -37,7 +37,7 @@ class FrontProjection(NamedTuple):
 
 
 def disc(view: FrontProjection, fitted: Fitted, weights: Sequence[Fitted]) -> Shape:
-    """What stands for a weight of which only mass and centre are known: its area is as its mass."""
+    """A disc in place of a weight without a shape: its area is proportional to the mass."""
     heaviest = max(weights, key=lambda weight: weight.mass_kg)
     radius = _DISC * heaviest.radius_m * math.sqrt(fitted.mass_kg / heaviest.mass_kg)
     return FrontProjection(1.0, view(fitted.radius_m, fitted.angle_deg)).arc(max(3.0, view.scale * radius), 0, 360)

@@ -1,7 +1,7 @@
 """Solids as STEP (ISO 10303-21, AP214): outlines that are extruded along the shaft; lengths are mm.
 
-Every solid is a product of its own, a shell of two plane ends and one face for each edge of its outline: a plane for a
-straight one, a cylinder about the shaft for an arc.
+Every solid is a product of its own: a shell of two plane ends and one face for each edge of its outline. The face is a
+plane for a straight edge, and a cylinder about the shaft for an arc.
 """
 
 from collections.abc import Iterator, Sequence

@@ -17,7 +17,7 @@ Anchor = Literal["start", "middle", "end"]
 
 PAGE_WIDTH = 640.0
 
-# told apart by everybody and, by dash or lightness, in black and white too (Okabe and Ito)
+# everybody can distinguish them, and by dash or lightness also in black and white (Okabe and Ito)
 INK = "#222222"
 MUTED = "#777777"
 FAINT = "#d5d5d5"
@@ -115,7 +115,7 @@ class Drawing:
 
         Parameters
         ----------
-        font : of its texts; that of the page if not given.
+        font : of its texts; by default that of the page.
         """
         size = {"width": _short(self.width * self.scale), "height": _short(self.height * self.scale)}
         box = {

@@ -1,4 +1,4 @@
-"""What is known of a layout that somebody is typing: a value that cannot be read is taken away, and named."""
+"""The valid part of a layout that somebody is typing: a value that cannot be read is taken away, and named."""
 
 from collections.abc import Iterator
 from itertools import islice
@@ -17,7 +17,7 @@ _DEEPEST = 8
 
 
 def partial_layout(typed: dict[str, Any]) -> tuple[Layout | None, list[FieldProblem]]:
-    """What is known of a layout that is half-typed, and why the rest is not.
+    """The valid part of a layout that is half-typed, and why the rest is missing.
 
     A value that cannot be read is taken away; where it has to be there, what it is part of goes with it.
 

@@ -9,7 +9,7 @@ from service.drawings.typed import partial_layout
 
 
 def views(request: LayoutRequest) -> LayoutAnswer:
-    """Front and side of what is known, and why the rest is not drawn."""
+    """Front and side of the valid part, and why the rest is not drawn."""
     # field by field: what stands in them may be nested more deeply than a model writes
     layout, missing = partial_layout({name: getattr(request, name) for name in ("machine", "counterweights", "fitted")})
     return LayoutAnswer(

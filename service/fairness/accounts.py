@@ -17,8 +17,8 @@ class _Account:
 class Accounts:
     """Seconds for which owners had turns, of those who have or want one.
 
-    Who comes counts as having had no less than the least of those who are here: nobody gathers credit by staying away,
-    and what an owner had while nobody else wanted it is not held against it.
+    A new owner counts as having had no less than the least of those who are here. So nobody gathers credit by staying
+    away, and the share of an owner who was alone is not held against it.
     Source: P. Goyal, H. M. Vin and H. Cheng, Start-time fair queueing, SIGCOMM 1996; by the time that turns last, as
     nobody knows it before.
 

@@ -24,7 +24,7 @@ _VALUES = 40_000
 
 
 def long_by_size(request: Model, document: bool) -> bool:
-    """Whether a request is too large to be answered soon; what is asked for may be a document."""
+    """Whether a request is too large for a short answer; the answer may be a document."""
     if not isinstance(request, Scene):
         return False
     if document:

@@ -1,4 +1,4 @@
-"""How much was computed for each owner lately, so that who asks now and then is told from who asks without end."""
+"""Computing time of each owner lately: it separates who asks now and then from who asks without end."""
 
 import math
 from collections.abc import Callable

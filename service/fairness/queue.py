@@ -12,7 +12,7 @@ from service.fairness.table import Share
 
 #: whoever waits and has had no turn for so long is before all who have had less [s]
 PATIENCE_S = 2.0
-#: who had a turn, or wanted several, for a larger share of the last seconds asks without end
+#: who had a turn, or waited for several, for a larger share of the last seconds asks without end
 _NOW_AND_THEN = 0.5
 
 
@@ -25,10 +25,10 @@ class Turn:
     """Asked for, waited for and had in an ``async with``; or step by step, and then ended in any case.
 
     begun_at : on the clock of the turns [s].
-    computed_s : what a core has computed in it [s]; if not known, as long as it lasted.
+    computed_s : what a core has computed in it [s]; by default as long as it lasted.
     above : it is one above the size.
     seldom : its owner had little when it began: whoever asks without end gives way to it.
-    refused : its place was given to another owner.
+    refused : another owner has its place.
     waits : done once it has begun or is refused; None where nobody waits.
     """
 
@@ -50,7 +50,7 @@ class Turn:
         Raises
         ------
         Full
-            at once, or when the place is given to another owner.
+            at once, or when another owner gets the place.
         """
         self.turns.ask(self)
         if not (self.begun or self.refused):
@@ -66,7 +66,7 @@ class Turn:
             self.waits.set_result(None)
 
     def end(self) -> None:
-        """It was had, or is not wanted any more."""
+        """It is over, or nobody waits for it any more."""
         # else nobody knows of it
         if self.asks_for_place and not self.ended:
             self.turns.end(self)
@@ -86,13 +86,13 @@ class Turn:
 class FairQueue:
     """So many turns at a time, and some above them for owners who have none, and had little lately.
 
-    Next is the owner who has had turns for the least time, each in the order in which it asked; but nobody waits for
+    Next is the owner who has had turns for the least time, each in the order of its calls; but nobody waits for
     ever, however many come who have had nothing. When as many wait as may, the owner of whom most wait gives up its
     last place to one of whom fewer wait.
 
     Little is at most half of an equal share of the cores that turns are for, among all owners who have a turn or wait.
-    And for half of the time at least, the owner had no turn and wanted one at most. On a full machine, owners who ask
-    without end may be given as little of a core as one who asks now and then. But they have a turn or want several all
+    For at least half of the time, the owner had no turn and waited for one at most. On a full machine, owners who ask
+    without end may get as little of a core as one who asks now and then. But they have a turn or wait for several all
     the time, so they leave those turns to him. What the busiest had is no measure: beside one whose computations are
     long, all others would have had little.
 
@@ -109,8 +109,8 @@ class FairQueue:
         self._places = places
         self._clock = clock
         self._accounts, self._loads = Accounts(clock), Loads(clock)
-        # the share of the last seconds for which owners had a turn or wanted several, and who does now: to wait for one
-        # is no pressure, else who waits once would wait ever longer
+        # share of the last seconds in which owners had a turn or waited for several, and who does now: one that waits
+        # once is no pressure, else it would wait ever longer
         self._pressure = Loads(clock)
         self._pressing: set[str] = set()
         self._running: dict[str, int] = {}
@@ -141,7 +141,7 @@ class FairQueue:
         return Turn(self, owner)
 
     def end(self, turn: Turn) -> None:
-        """A turn that was asked for was had, or is not wanted any more."""
+        """A turn is over, or nobody waits for it any more."""
         turn.ended = True
         if turn.begun:
             self._begun.remove(turn)
@@ -241,7 +241,7 @@ class FairQueue:
             self._begin(turn)
 
     def _ready(self) -> Iterator[Turn]:
-        # most often the turn that ended has been given to another: who cannot begin is not asked one by one
+        # most often another owner has the free place already: who cannot begin is not asked one by one
         free = self._is_free()
         if self._above >= self._most_above and not free:
             return

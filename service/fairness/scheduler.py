@@ -18,7 +18,7 @@ class FairScheduler:
 
     Parameters
     ----------
-    call_soon : has something done in the next turn of the loop; that of the loop that runs if not given.
+    call_soon : has something done in the next turn of the loop; by default that of the loop that runs.
     busy : whether anything else is to be done in this turn; likewise.
     """
 

@@ -22,12 +22,12 @@ _REST = 3.0
 class SingleFlight:
     """One look at a time for each client, whatever it looks at.
 
-    A look begins after it was asked for, so that nobody is told what was before; who asks while it is taken waits for
+    A look begins after the call, so that nobody gets an earlier state; who calls while it is taken waits for
     the next. Hundreds who ask for the state of a job again and again cost one look after the other.
 
     Parameters
     ----------
-    turn : waits until a client may go on with what was found: what hundreds wait for comes to all of them at once.
+    turn : waits until a client may go on with the result: what hundreds wait for comes to all of them at once.
     """
 
     def __init__(self, turn: Callable[[str], Awaitable[None]]) -> None:
@@ -37,7 +37,7 @@ class SingleFlight:
     def _of_loop(self) -> asyncio.AbstractEventLoop:
         loop = asyncio.get_running_loop()
         if loop is not self._loop:
-            # what was asked for in a loop that has ended is gone with it
+            # calls in a loop that has ended are gone with it
             self._loop, self._queue = loop, FairQueue(LOOKS, ANY)
             # the queue says who is next
             self._threads = CapacityLimiter(LOOKS.altogether + LOOKS.reserve)
@@ -46,7 +46,7 @@ class SingleFlight:
         return loop
 
     async def at(self, who: str, key: Hashable, look: Callable[[], Result]) -> Result:
-        """What is found by a look that begins from now on.
+        """The result of a look that begins from now on.
 
         Parameters
         ----------
@@ -56,7 +56,7 @@ class SingleFlight:
         shared = self._tasks.get((who, key))
         if shared is None:
             shared = self._tasks[who, key] = loop.create_task(self._result(loop, who, key, look))
-            # there may be nobody left to be told
+            # all who waited may have left
             shared.add_done_callback(lambda task: task.cancelled() or task.exception())
         # who leaves takes nothing away from the others
         await asyncio.wait((shared,))

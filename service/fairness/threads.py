@@ -37,7 +37,7 @@ class Threads:
                 del self._using[who], self._own[who]
 
     async def pieces(self, who: str, content: Iterator[bytes]) -> AsyncIterator[bytes]:
-        """What an iterator of a client yields; it goes on when it is asked for more."""
+        """The pieces of a client's iterator; it goes on with each call."""
         while (piece := await self.run(who, lambda: next(content, None))) is not None:
             yield piece
 

@@ -45,7 +45,7 @@ def needs(*scopes: KeyScope) -> Any:
 class Access:
     """Lets requests pass that have a key, and not too many of them.
 
-    Where nobody needs a key, those for hosts that are known.
+    Where nobody needs a key, requests for hosts on the list.
 
     Whose request it is goes into ``state["caller"]``, and what of the service it takes into ``state["holding"]``.
     """

@@ -6,7 +6,7 @@ from service.guard.refusals import BadHeader, Forbidden, ForeignHost, Unauthoriz
 
 
 def _unauthorized(error: Unauthorized) -> Fault:
-    # RFC 6750: an error is named only if a key was given
+    # RFC 6750: an error is named only in answer to a key
     challenge = 'Bearer realm="counterweight"' + (', error="invalid_token"' if error.wrong else "")
     return Fault(401, "Unauthorized", str(error), headers={"WWW-Authenticate": challenge})
 

@@ -1,7 +1,7 @@
 """For which hosts the service answers where nobody needs a key.
 
 A web page may give its own name the address of this machine (DNS rebinding), and a browser then lets it ask here as if
-it asked at home. The header ``Host`` tells: it holds the name of the page.
+it asked at home. The header ``Host`` shows it: it holds the name of the page.
 """
 
 import re

@@ -101,7 +101,7 @@ NOBODY = Caller(None, None, frozenset())
 
 
 def caller_of(request: Request) -> Caller:
-    """Whose request it is; :class:`~service.guard.access.Access` has found out."""
+    """Whose request it is, by :class:`~service.guard.access.Access`."""
     # its state makes an object for each look
     caller: Caller = request.scope["state"]["caller"]
     return caller
@@ -237,7 +237,7 @@ class Keys:
         try:
             records = {record.id: record for record in read(self._file)}
         except BadKeyFile as error:
-            # the keys that are known stay valid until the file is right again
+            # the last valid keys stay until the file is right again
             _LOG.warning("%s", error)
         else:
             self._note_changes(records)

@@ -60,7 +60,7 @@ Name = TypeVar("Name", bound=Hashable)
 
 
 class Shelf(Generic[Name]):
-    """Documents that take a tenth of a second or more to make: made when they are first asked for, in a thread.
+    """Documents that take a tenth of a second or more to make: made in a thread at the first request for them.
 
     Parameters
     ----------

@@ -113,7 +113,7 @@ class Computing:
             question = self.question(computation.request_model, body).model_dump_json().encode()
             return accepted(request, *desk_of(request).later(computation.name, question, key, body))
 
-        # a job is asked for and answered in JSON; other forms are answered at once, as RFC 7240 allows
+        # a job is in JSON; other forms are answered at once, as RFC 7240 allows
         if computation.later and wishes.later and not workbook and form is computation.forms[0]:
             return await threads_of(request).run(holding(request).who, accept)
 

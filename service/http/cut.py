@@ -1,4 +1,4 @@
-"""Answers that have begun and cannot go on: told in a line, and to the client by the end of the connection."""
+"""Answers that have begun and cannot go on: a last line reports the fault, and the end of the connection shows it."""
 
 import logging
 

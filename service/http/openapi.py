@@ -45,7 +45,7 @@ class Documented(FastAPI):
 
     Parameters
     ----------
-    keyed : whether a key is needed; else the document says that one is optional.
+    keyed : whether requests must have a key; else the document says that one is optional.
     """
 
     def __init__(self, *, keyed: bool, **options: Any) -> None:
@@ -65,7 +65,7 @@ class Documented(FastAPI):
                 Problem,
             ]
             _, definitions = models_json_schema([(model, "validation") for model in models], ref_template=MODEL_REF)
-            # a model that is asked and answered, as a cylinder, is described as it is asked: that holds for both
+            # a model of requests and answers, as a cylinder, is described as in requests: that holds for both
             schemas |= definitions["$defs"]
             document["servers"] = [{"url": "/"}]
             document["components"] |= {"headers": {**HEADERS}, "parameters": {**PARAMETERS}}

@@ -24,7 +24,7 @@ class UnknownParameter(ValueError):
 
 
 def require_parameters(request: Request, allowed: Collection[str] = ()) -> None:
-    """Go on only if the query has none but known parameters.
+    """Go on only if all parameters of the query are allowed.
 
     Raises
     ------

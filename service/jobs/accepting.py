@@ -1,4 +1,4 @@
-"""How a request is taken in to be answered later: what its headers say, and what it is told."""
+"""How a request becomes a job: its headers, and the response with the state of the job."""
 
 import re
 
@@ -46,7 +46,7 @@ def prefers_later(request: Request) -> bool:
 
 
 def accepted(request: Request, job: Job, new: bool) -> Response:
-    """The state of a job that was taken in, and where it is; a job that is known already is said to be known."""
+    """The state of a job that was taken in, and where it is; the status shows whether the job is new."""
     state = desk_of(request).state(job, prefix(request))
     headers = {"Location": state.links.self, "Cache-Control": "no-store"}
     if prefers_later(request):

@@ -75,9 +75,9 @@ class Coordinator:
         self._active: set[str] = set()
         # jobs that are read here, and those of a later version, which services of that one compute
         self._read, self._later = set[str](), set[str]()
-        # chunks that were in a pool when it broke are tried alone, so that the one at fault is found
+        # chunks that were in a pool when it broke are tried alone, to identify the one at fault
         self._suspects = True
-        # jobs that ended badly while the database could not be told
+        # jobs that ended badly while the database was out of reach
         self._verdicts: dict[str, str] = {}
         self._away = False
         self._renewed = self._tidied = float("-inf")
@@ -95,7 +95,7 @@ class Coordinator:
         self._wake.set()
 
     def stop(self) -> None:
-        """End soon: the workers are ended, their chunks are given back."""
+        """End soon: the workers are ended, and their chunks are free again."""
         self._stopping = True
         self._wake.set()
         if self._thread is not None:
@@ -103,11 +103,11 @@ class Coordinator:
 
     @property
     def faults(self) -> int:
-        """What the service found wrong with its own answers, so far."""
+        """Number of own answers, so far, that the service has reported as wrong."""
         return self._intake.faults
 
     def verdict(self, job: str) -> str | None:
-        """Why a job failed, if the database could not be told yet."""
+        """Why a job failed, until the database has recorded it."""
         return self._verdicts.get(job)
 
     def _work(self) -> None:
@@ -121,7 +121,7 @@ class Coordinator:
                 if not self._away:
                     _LOG.warning("%s; the jobs wait", error)
                 if isinstance(error, DatabaseUnavailable) and error.full:
-                    # as when their rows cannot be written; with none on the way it was a lease that found no room
+                    # as when their rows cannot be written; without a running chunk it was a lease without room
                     for job in {flight.chunk.job for flight in self._flights} or self._active:
                         self._verdicts.setdefault(job, str(error))
                 self._away, pause = True, min(self._pace.longest_pause_s, 2 * pause)
@@ -188,7 +188,7 @@ class Coordinator:
         """Keep rows that came, those of a job together: of many workers some are always done at the same time."""
         came = [flight for flight in self._flights if flight.rows_came]
         if len(came) > _AT_A_TIME:
-            # leases are renewed and chunks given out in between
+            # leases are renewed and new chunks leased in between
             self._wake.set()
         for job, group in groupby(sorted(came[:_AT_A_TIME], key=_job), key=_job):
             flights = list(group)

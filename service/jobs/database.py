@@ -39,7 +39,7 @@ class Database:
     Raises
     ------
     ValueError
-        if ``url`` is no connection string of a known database.
+        if ``url`` is no connection string of a supported database.
     """
 
     def __init__(self, url: str | Path, busy_s: float = 5.0) -> None:
@@ -117,7 +117,7 @@ class Database:
             if isinstance(error, IntegrityError):
                 raise
             if _knows_other_tables(error):
-                # somebody has changed them since: whoever asks next is told what is wrong
+                # somebody has changed them since: the next call raises what is wrong
                 self._has_tables = False
             full = getattr(error.orig, "sqlite_errorcode", None) == sqlite3.SQLITE_FULL
             raise DatabaseUnavailable(f"the job database does not answer: {error.orig}", full) from error

@@ -41,7 +41,7 @@ class JobService:
 
     def __init__(self, settings: Settings, pace: Pace | None = None, run: Run = worker.run) -> None:
         where: str | Path = settings.database_url or settings.data_dir / "jobs.sqlite"
-        # no file is made before it is needed; another service may make it
+        # no file is made before its first use; another service may make it
         self._begun: Callable[[], bool] = lambda: not isinstance(where, Path) or where.exists()
         # of an earlier version, or made by hand: what is in it is nobody else's
         close(settings.data_dir / _RESULTS)

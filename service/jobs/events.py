@@ -25,7 +25,7 @@ class News:
 
 
 def news(jobs: OwnerJobs, job: Job, prefix: str) -> News:
-    """What is told of a job; ``prefix`` is the path that a proxy strips."""
+    """The event with the state of a job; ``prefix`` is the path that a proxy strips."""
     name = "progress" if job.active else "end"
     state = jobs.state(job, prefix).model_dump_json()
     return News(job, f"id: {job.version}\nevent: {name}\ndata: {state}\n\n".encode())
@@ -65,7 +65,7 @@ class Watch:
             look.begun.set()
 
     async def next(self, job: str, prefix: str) -> News:
-        """What is known of a job after the next look.
+        """The state of a job after the next look.
 
         Raises
         ------
@@ -102,8 +102,8 @@ async def events(
     Parameters
     ----------
     first : the job as it is now.
-    look : waits for what is known of it next.
-    last : id of the last event that the client has seen; it is not told again.
+    look : waits for the next state.
+    last : id of the last event that the client has seen; it is not sent again.
     closing : whether the service is about to stop.
     """
     yield b"retry: 2000\n\n"

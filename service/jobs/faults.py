@@ -16,7 +16,7 @@ def _not_finished(error: NotFinished) -> Fault:
 
 
 def _database(error: DatabaseUnavailable) -> Fault:
-    # where it is, and as whom it was asked, is for the log
+    # its address and its user are for the log
     words = "has no room left" if error.full else "is locked, or does not answer"
     return Fault(
         503, "Database unavailable", f"The job database {words}; try again later.", headers={"Retry-After": "5"}

@@ -13,8 +13,8 @@ _DIGITS = 62
 def fingerprint(kind: str, sent: bytes) -> str:
     """The fingerprint of a body that was read and checked.
 
-    It knows the JSON as it was sent: no default, which another version may have more of, no white space, no order of
-    fields, and no way to write a number.
+    It knows the JSON as it was sent. Defaults do not count, as another version may have more. Nor do white space,
+    the order of fields, and the ways to write a number.
     """
     body = json.loads(sent.decode("utf-8-sig"), parse_float=_number)
     text = json.dumps([kind, body], sort_keys=True, separators=(",", ":"))

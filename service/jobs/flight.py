@@ -22,7 +22,7 @@ class RunningChunk:
 
     @property
     def rows_came(self) -> bool:
-        """Whether it is done, and its rows are wanted."""
+        """Whether it is done, and its rows count."""
         future = self.future
         has_rows = self.chunk.rows > 0 and not self.dropped
         return has_rows and future.done() and not future.cancelled() and future.exception() is None

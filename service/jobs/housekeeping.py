@@ -42,7 +42,7 @@ class Housekeeping:
             _LOG.warning("removed the messages of %d services that were killed", gone)
 
     def _remove_unknown(self) -> None:
-        # listed before the jobs are, which are known before they have a folder
+        # listed before the jobs are: a job is in the database before it has a folder
         folders = self._files.folders()
         if not folders:
             return
@@ -58,7 +58,7 @@ class Housekeeping:
         self._tidy_jobs = {job: version for job, version in self._tidy_jobs.items() if ended.get(job) == version}
         for job in [job for job in ended if job not in self._tidy_jobs][:_AT_A_TIME]:
             with suppress(UnknownJob):
-                # listed before the records are, which are known before a job ends
+                # listed before the records are: a record is in the database before a job ends
                 names, entry = self._files.names(job), self._store.get(job)
                 if not entry.active:
                     self._files.tidy(job, names, self._records(job))

@@ -24,7 +24,7 @@ class ResultWriter:
 
     def __init__(self, leases: Leases, files: JobFiles, housekeeping: Housekeeping) -> None:
         self._leases, self._files, self._housekeeping = leases, files, housekeeping
-        #: what the service found wrong with its own answers, so far
+        #: number of own answers, so far, that the service has reported as wrong
         self.faults = 0
 
     def keep_rows(self, job: str, came: Sequence[tuple[Chunk, ChunkResult]]) -> None:

@@ -6,7 +6,7 @@ from typing import Any, Literal
 
 State = Literal["queued", "running", "done", "failed", "cancelled"]
 
-#: states in which chunks are still given out
+#: states in which chunks are still leased
 ACTIVE: tuple[State, ...] = ("queued", "running")
 #: a job whose files are being removed; nobody sees it any more
 REMOVED = "removed"
@@ -35,7 +35,7 @@ class Order:
 
 @dataclass(frozen=True)
 class Job:
-    """Something that is computed apart from the request that asked for it; times in seconds since 1970."""
+    """A computation apart from its request; times in seconds since 1970."""
 
     id: str
     kind: str

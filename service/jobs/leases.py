@@ -33,7 +33,7 @@ _CANDIDATES = 20
 
 
 class Leases:
-    """The chunks in a database: given out, taken back, finished.
+    """The chunks in a database: leased, returned, finished.
 
     Parameters
     ----------
@@ -58,8 +58,8 @@ class Leases:
     def claim_chunks(
         self, owner: str, lease_s: float, most: int, attempted: bool = False, exclusions: Collection[str] = ()
     ) -> list[Chunk]:
-        """Lease chunks of one job: of the owner with the fewest chunks in work, and of their job with the fewest, so
-        that nobody waits for somebody else's large or many jobs.
+        """Lease chunks of one job: of the owner with the fewest chunks in work, and of their job with the fewest. So
+        nobody waits for somebody else's large or many jobs.
 
         Parameters
         ----------
@@ -159,7 +159,7 @@ class Leases:
 
         Returns
         -------
-        the file that is not needed any more: that of the selection before, or this one if it does not count.
+        the file that is free to be removed: that of the selection before, or this one if it does not count.
         """
         with self._database.write() as connection:
             job = rows.find(connection, chunk.job, lock=True)
@@ -270,7 +270,7 @@ def _own(chunk: Chunk) -> ColumnElement[bool]:
 
 
 def _available(attempted: bool) -> tuple[tuple[ColumnElement[bool], ColumnElement[bool]], ColumnElement[bool]]:
-    """Chunks that nobody holds, those that were never given out apart from others, and whether they were tried."""
+    """Chunks whose lease is over, chunks that never had one, and whether a chunk was tried."""
     over = or_(chunks.c.lease_until < bindparam("now"), chunks.c.lease_until > bindparam("latest"))
     # those of a service that is gone first: however long a sweep is, nobody waits for its first rows to the end
     free = (and_(chunks.c.state == "leased", over), chunks.c.state == "pending")
@@ -304,7 +304,7 @@ def _waiting(attempted: bool) -> Select[Any]:
 
 @cache
 def _free_of_job(attempted: bool) -> tuple[Select[Any], ...]:
-    """Start, stop and attempts of chunks of a job that may be given out, at most so many."""
+    """Start, stop and attempts of chunks of a job without a lease, at most so many."""
     free, attempts = _available(attempted)
     query = select(chunks.c.start, chunks.c.stop, chunks.c.attempts).where(chunks.c.job == bindparam("job"), attempts)
     return tuple(query.where(condition).order_by(chunks.c.start).limit(bindparam("most")) for condition in free)

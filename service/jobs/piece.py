@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 
 class Stopped(Exception):
-    """The flag of the job told the worker to stop."""
+    """The flag of the job ended the work."""
 
 
 class Unanswerable(Exception):
@@ -18,7 +18,7 @@ class ChunkResult:
 
     invalid : rows of designs that break a rule; they did not fail.
     infeasible : of the rows that failed, those proven to have no counterweights.
-    faults : what the service found wrong with its own answers, and says in them.
+    faults : number of own answers that the service has reported as wrong, in the answers too.
     """
 
     content: bytes

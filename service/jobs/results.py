@@ -21,7 +21,7 @@ class UnknownColumn(ValueError):
 
 
 def schema_of(schema: "pa.Schema", columns: Sequence[str]) -> "pa.Schema":
-    """The schema of some columns, in the order of the result; all of them if none is asked for.
+    """The schema of some columns, in the order of the result; by default of all.
 
     Each of ``columns`` is a name, or several with commas between them.
 

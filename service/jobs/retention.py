@@ -14,8 +14,8 @@ from service.jobs.tables import chunks, jobs, schema
 class Retention:
     """Which jobs there still are.
 
-    Time is that in which some service lives, so that no jump of a clock ends anything: each service adds what it has
-    seen pass since it looked last, unless another has added it already.
+    Time is that in which some service lives, so that no jump of a clock ends anything. Each service adds the time since
+    its last look, unless another has added it already.
 
     Parameters
     ----------

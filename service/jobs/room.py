@@ -12,7 +12,7 @@ from service.jobs.tables import jobs
 _BLOCK = 4096
 #: what the database keeps of a job or a chunk beside the request and the columns, with its indexes, roughly [bytes]
 _ROW = 400
-#: of one job in the database: what was asked for, and the columns of its answer
+#: of one job in the database: its request, and the columns of its answer
 _TEXT: ColumnElement[int] = func.length(jobs.c.request) + func.coalesce(func.length(jobs.c.columns), 0)
 
 
@@ -28,7 +28,7 @@ def of(owner: str | None) -> ColumnElement[bool]:
 
 def exceeds(connection: Connection, owner: str | None, quota: int) -> bool:
     """Whether the jobs of an owner take more than so many bytes on disk."""
-    # asked for each chunk: his part of the database is looked at where all of it would be too much
+    # runs for each chunk: his part of the database is looked at where all of it would be too much
     most = int(connection.scalar(select(func.sum(jobs.c.bytes)).where(of(owner))) or 0)
     if connection.dialect.name == "sqlite":
         most += _database(connection)

@@ -10,7 +10,7 @@ from service.jobs.tables import chunks, jobs, schema
 
 _ID = re.compile(r"[0-9a-f]{32}")
 JOB = [jobs.c[name] for name in FIELDS]
-# put together once, as they are asked at every turn
+# put together once, as every turn runs them
 _BY_ID: Select[tuple[object, ...]] = select(*JOB).where(jobs.c.id == bindparam("job"), jobs.c.state != REMOVED)
 _LOCKED = _BY_ID.with_for_update()
 
@@ -56,7 +56,7 @@ def get(connection: Connection, job: str, lock: bool = False) -> Job:
 
 
 def change(connection: Connection, job: str, **values: object) -> None:
-    """Change a job, which its watchers are told of."""
+    """Change a job, and raise its version for its watchers."""
     connection.execute(update(jobs).where(jobs.c.id == job).values(version=jobs.c.version + 1, **values))
 
 

@@ -2,7 +2,7 @@
 
 1: jobs and chunks, without a number.
 2: this table; digests, sizes and failures of chunks; what a job selects, has repaired and takes on disk; chunks made
-   when they are given out; expiry in seconds lived.
+   when they are leased; expiry in seconds lived.
 3: rows of invalid designs counted apart; those of older chunks stay among the failed.
 4: rows that are proven infeasible counted among those that failed; of older chunks none.
 """
@@ -102,7 +102,7 @@ def _from_1(connection: Connection) -> None:
 
 
 def _selections_of_1(connection: Connection) -> None:
-    """What they selected when asked is selected by workers now, once more."""
+    """Selections that requests computed are computed by workers now, once more."""
     sweeps = select(jobs.c.id).where(jobs.c.kind == "sweep", jobs.c.state != "removed")
     for job in connection.scalars(sweeps).all():
         row = connection.execute(select(jobs.c.request, jobs.c.state, jobs.c.total).where(jobs.c.id == job)).one()

@@ -1,4 +1,4 @@
-"""What workers are given and give back, through files instead of pipes.
+"""Input and results of workers, through files instead of pipes.
 
 The pipes of a process pool hold some 64 kB. A worker that is killed in the middle of a longer message leaves half of it
 there, and the pool waits for the other half for ever (CPython issue 94777). So pipes carry short messages only, which

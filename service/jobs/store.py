@@ -1,4 +1,4 @@
-"""What is known about jobs, and what clients change of it. Every method is one transaction."""
+"""The jobs in the database, and the changes that clients make to them. Every method is one transaction."""
 
 import time
 import uuid
@@ -133,7 +133,7 @@ class Store:
             return [job_from(row) for row in connection.execute(query).mappings()]
 
     def request(self, job: str) -> bytes:
-        """What was asked for.
+        """The request of a job.
 
         Raises
         ------
@@ -254,7 +254,7 @@ class Store:
 
 @cache
 def _page(owned: bool, later: bool) -> Select[tuple[object, ...]]:
-    """The statement of a page, of one owner and after a job if so; put together once, as it is asked at every look."""
+    """The statement of a page, of one owner and after a job if so; put together once, as every look runs it."""
     query = select(*JOB).where(jobs.c.state != REMOVED, jobs.c.kind.in_(bindparam("kinds", expanding=True)))
     if owned:
         query = query.where(jobs.c.owner == bindparam("owner"))

@@ -1,4 +1,4 @@
-"""The tables: jobs, their chunks, and what is known of the database itself. Rows of a chunk are [start, stop)."""
+"""The tables: jobs, their chunks, and the state of the database itself. Rows of a chunk are [start, stop)."""
 
 from sqlalchemy import (
     BigInteger,

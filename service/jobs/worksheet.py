@@ -1,6 +1,6 @@
 """Rows as a workbook, a batch at a time: numbers as numbers, every text as a text.
 
-A workbook of a library is finished before its first byte can be sent; here Arrow writes the cells of a batch (ECMA-376,
+A workbook of a library is finished before its first byte can be sent. Here Arrow writes the cells of a batch (ECMA-376,
 part 1, 18.3.1), and memory holds one batch however many there are.
 """
 

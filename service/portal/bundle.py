@@ -12,7 +12,7 @@ from posixpath import dirname, join, normpath
 _IMPORT = re.compile(r'^import \{ ([\w$ ,]+) \} from "(\.[\w./]+)";$', re.MULTILINE)
 _EXPORT = re.compile(r"^export (?=(?:const|class|(?:async )?function\*?) ([\w$]+))", re.MULTILINE)
 _OTHER = re.compile(r"^(?:import|export)\b.*|\bimport\(.*", re.MULTILINE)
-# types are told to the checker alone
+# types are for the checker alone
 _NOTE = re.compile(r"/\*\*.*?\*/", re.DOTALL)
 
 

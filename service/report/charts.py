@@ -20,9 +20,9 @@ from service.drawings.svg import (
 )
 from service.report.blocks import prose, turns_of
 
-#: more lines than this cannot be told apart
+#: nobody can distinguish more lines than this
 MAX_LINES = len(SERIES)
-#: points of a line that can be told apart on paper
+#: points of a line that are separate on paper
 _BINS = 720
 #: components of a vector across the shaft, as they stand at the axes
 FORCE_AXES = ("force along x", "force along y")
@@ -84,7 +84,7 @@ def chart(
 
     Parameters
     ----------
-    ticks : marks of the axis across; chosen if not given.
+    ticks : marks of the axis across; by default round numbers.
     """
     longest = max((len(line.name) for line in lines), default=0)
     beside = 4 if longest <= 20 else 2

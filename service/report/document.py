@@ -45,14 +45,14 @@ _USUAL: tuple[OutputName, ...] = ("stages", "foundation_loads")
 
 
 def report(request: ReportRequest, at: datetime | None = None) -> Document:
-    """The report on a machine: what was asked, what was found, and the proof.
+    """The report on a machine: the request, the result, and the proof.
 
     The eight balancing stages and the loads on the foundation are in it wherever the machine gives what they need, the
-    other outputs as asked for.
+    other outputs if the request names them.
 
     Parameters
     ----------
-    at : time that the document bears; now if not given. Nothing else in it changes from one time to the next.
+    at : time that the document bears; by default now. Nothing else in it changes from one time to the next.
 
     Raises
     ------

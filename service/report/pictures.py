@@ -55,7 +55,7 @@ class Picture:
 
 
 def styled(drawing: Drawing, style: PictureStyle) -> Drawing:
-    """The drawing in the size that is asked for, on a ground, under a title."""
+    """The drawing in the size of a style, on a ground, under a title."""
     if style == PictureStyle():
         return drawing
     above = 0.0 if style.title is None else _TITLE

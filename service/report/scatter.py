@@ -6,13 +6,13 @@ from typing import NamedTuple
 from service.drawings.svg import AFTER, BEFORE, FAINT, MUTED, PAGE_WIDTH, Drawing, Point
 from service.report.charts import prefix, spread, tick
 
-#: designs that can be told apart on paper; of more every so manieth is drawn, and all of the front
+#: designs that are separate points on paper; of more every so manieth is drawn, and all of the front
 MOST_POINTS = 5_000
 _LEFT, _RIGHT, _TOP, _HEIGHT = 72.0, 14.0, 34.0, 320.0
 
 
 class Column(NamedTuple):
-    """One column of rows: its name, the unit that may be known, and a value for each design."""
+    """One column of rows: its name, its unit if there is one, and a value for each design."""
 
     name: str
     unit: str

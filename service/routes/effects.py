@@ -1,4 +1,4 @@
-"""What can be asked for, and what it takes."""
+"""Outputs and effects, and their inputs."""
 
 from fastapi import APIRouter
 from starlette.requests import Request

@@ -16,7 +16,7 @@ def processor() -> str:
     name = os.environ.get("NUMBA_CPU_NAME")
     if name is None:
         return "host"
-    # beside a name numba takes all that this machine has, unless it is told what to take
+    # beside a name numba takes all features of this machine, unless a setting lists them
     own = "NUMBA_CPU_FEATURES" not in os.environ and name.lower() != "generic"
     return f"{name or 'generic'}{'+host' if own else ''}"
 

@@ -31,7 +31,7 @@ RESIDUAL_HEADS = ("first-order peak", "without counterweights", "optimum", "as b
 
 
 class Tolerance(NamedTuple):
-    """Errors that all counterweights may have together, each alone; None where nothing is known."""
+    """Errors that all counterweights may have together, each alone; None if undetermined."""
 
     share: float | None
     angle_deg: float | None
@@ -78,10 +78,10 @@ def as_built(request: OptimizeRequest, answer: OptimizeAnswer) -> AsBuilt | None
         return None
     counterweights = tuple(GivenCounterweight(**counterweight.model_dump()) for counterweight in request.fitted)
     analysis = analyze(AnalyzeRequest(machine=request.machine, counterweights=counterweights, outputs=("residual",)))
-    assert analysis.residual is not None  # it is asked for
+    assert analysis.residual is not None  # the request names it
     assert analysis.residual.after is not None
     built, optimum, mass = every_counterweight(analysis), every_counterweight(answer), whole_mass(analysis)
-    assert mass is not None  # of what is given
+    assert mass is not None  # of the counterweights as built
     pairs = tuple(_pairs(optimum, built))
     return AsBuilt(built, analysis.residual.after, mass, pairs, tolerance(answer))
 
@@ -141,7 +141,7 @@ def residual(answer: OptimizeAnswer, comparison: AsBuilt) -> Lines:
 
 
 def required(request: OptimizeRequest, answer: OptimizeAnswer) -> AsBuilt:
-    """The same where it is asked for by itself.
+    """The same for a document about nothing else.
 
     Raises
     ------

@@ -16,7 +16,7 @@ _KILO = 1e3
 
 
 def sets(loads: Sequence[OrderOfFoundation]) -> dict[str, str]:
-    """The sets of counterweights that loads are told of: the field of each, and its heading."""
+    """The sets of counterweights with loads: the field of each, and its heading."""
     built = any(load.as_built is not None for load in loads)
     names = {"before": "without counterweights", "after": "optimum" if built else "with counterweights"}
     headings = {**names, "as_built": "as built"}

@@ -1,4 +1,4 @@
-"""Memory that nobody uses any more: given back to the system, which the libraries would not do by themselves."""
+"""Memory that nobody uses any more goes back to the system, which the libraries would not do by themselves."""
 
 import ctypes
 import gc
@@ -26,13 +26,13 @@ _PAGE_BYTES = resource.getpagesize()
 
 
 def keep_little() -> None:
-    """Have all memory come from the C library, which can be told to give it back; before Arrow is imported.
+    """Have all memory come from the C library, which has a setting to return it; before Arrow is imported.
 
     Arrow has an allocator of its own otherwise, which keeps what rows took for good.
     """
     os.environ.setdefault("ARROW_DEFAULT_MEMORY_POOL", "system")
     tell = getattr(ctypes.CDLL(None), "mallopt", None)
-    # other C libraries have nothing to be told
+    # other C libraries have no such setting
     if tell is not None:
         tell(_MMAP_THRESHOLD, _LARGE_BYTES)
         tell(_ARENA_MAX, _HEAPS)
@@ -61,7 +61,7 @@ async def _calm() -> None:
 
 
 def _give_back(trim: Callable[[int], int]) -> None:
-    # streams that were cut are garbage with all that they held; where nothing is asked nothing else collects it
+    # streams that were cut are garbage with all that they held; without requests nothing else collects it
     gc.collect()
     trim(0)
 

@@ -1,4 +1,4 @@
-"""What Prometheus is told: requests, computations, certified gaps, the queue, workers, and sweeps."""
+"""Metrics for Prometheus: requests, computations, certified gaps, the queue, workers, and sweeps."""
 
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import asdict

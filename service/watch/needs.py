@@ -38,7 +38,7 @@ def disk(folder: Path, least_mb: int) -> None:
 
 
 def workers(pids: Callable[[], Sequence[int]]) -> None:
-    """Go on unless every process that computes has been stopped; where there is none yet, one is started when needed.
+    """Go on unless every process that computes has been stopped; before the first request there may be none.
 
     Raises
     ------

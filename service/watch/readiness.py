@@ -20,7 +20,7 @@ _LOG = logging.getLogger(__name__)
 
 
 class NotReady(Exception):
-    """The service cannot compute; a retry helps if ``retry_after_s`` is given."""
+    """The service cannot compute; a retry helps if there is a ``retry_after_s``."""
 
     def __init__(self, message: str, retry_after_s: int | None = None) -> None:
         self.retry_after_s = retry_after_s
@@ -28,7 +28,7 @@ class NotReady(Exception):
 
 
 class Readiness:
-    """State of the warm-up: warming, then ready or failed; and of what else is needed.
+    """State of the warm-up: warming, then ready or failed; and of database, disk and workers.
 
     Parameters
     ----------
@@ -55,7 +55,7 @@ class Readiness:
             self.state = "ready"
 
     async def watch(self) -> None:
-        """Look after everything that is needed, until cancelled."""
+        """Run all checks again and again, until cancelled."""
         while True:
             for name, check in self._checks.items():
                 problem = await self._probe(check)

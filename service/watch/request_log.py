@@ -18,7 +18,7 @@ from service.watch.tracing import Tracing
 _LOG = logging.getLogger("service.requests")
 _ID = re.compile(r"[A-Za-z0-9._-]{1,64}")
 _TRACEPARENT = re.compile(r"[0-9a-f]{2}-(?!0{32})([0-9a-f]{32})-(?!0{16})[0-9a-f]{16}-[0-9a-f]{2}(?:-.*)?")
-#: asked every few seconds by whoever looks after the service
+#: requests of monitors, every few seconds
 _PROBES = frozenset({"/healthz", "/readyz", "/metrics"})
 #: in the first bytes of problem details
 _KIND = re.compile(rb'"type":"/problems/([a-z-]+)"')
@@ -79,7 +79,7 @@ class RequestLog:
                 status = status or 500
                 raise
             finally:
-                # who was told nothing has gone before
+                # a client without an answer has gone before
                 status = status or _GONE
                 route = self._route(scope)
                 if kind:

@@ -1,4 +1,4 @@
-"""Traces for OpenTelemetry, if asked for: a span for every request, and one inside for its computation."""
+"""Traces for OpenTelemetry, if configured: a span for every request, and one inside for its computation."""
 
 from collections.abc import Iterator
 from contextlib import AbstractContextManager, contextmanager, nullcontext
@@ -14,7 +14,7 @@ _NOTHING: AbstractContextManager[None] = nullcontext()
 
 
 class NoTelemetry(ValueError):
-    """Traces were asked for, and there is nothing to send them with."""
+    """Traces are configured, and the packages to send them are missing."""
 
     def __init__(self) -> None:
         super().__init__("traces need the extra `telemetry`: pip install '.[telemetry]' beside pyproject.toml")

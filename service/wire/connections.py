@@ -60,7 +60,7 @@ class Connection(H11Protocol):
         self._next = b""
         self._asks: Client | None = None
         self._heads = Heads()
-        # h11 has read something: what it makes of that is asked of it from then on
+        # h11 has read something: from then on it decides
         self._by_h11 = False
         self._idle = Idleness(self.loop, self.timeout_keep_alive, self.timeout_keep_alive_handler)
         #: called when it has ended
@@ -70,7 +70,7 @@ class Connection(H11Protocol):
         coalescing = CoalescingTransport(transport, self.loop, self._still_sent, self.headers_timeout_s)
         super().connection_made(coalescing)  # type: ignore[arg-type]
         transport.set_write_buffer_limits(high=_UNREAD_BYTES)
-        # what is read at a time: a client that sends more than is asked for fills no more than this
+        # size of one read: a client that sends ahead fills no more than this
         transport.max_size = _READ_BYTES  # type: ignore[attr-defined]
         self._watch_headers()
 
@@ -103,7 +103,7 @@ class Connection(H11Protocol):
         self._unset_keepalive_if_required()
         self._waits = True
         if not self.rounds.ask(client_network(self._address), lambda: self._look_at(data)):
-            # also that its client has left is seen later: what it asked is told in the log
+            # also that its client has left is seen later: its request is in the log
             self.transport.hold_back()  # type: ignore[attr-defined]
 
     def _look_at(self, data: bytes) -> None:
@@ -225,7 +225,7 @@ class Connection(H11Protocol):
         return self.conn.our_state in (h11.DONE, h11.MUST_CLOSE) and self.conn.their_state is h11.SEND_BODY
 
     def _still_sent(self) -> bool:
-        # h11 has said that it closes before the transport is told
+        # h11 has said that it closes before the transport hears it
         closed = not self._plain and self.conn.our_state is h11.CLOSED and self.conn.their_state is h11.SEND_BODY
         return self._answered_early or closed
 

@@ -34,7 +34,7 @@ class Cors(CORSMiddleware):
             return response
         fault = Fault(response.status_code, "Not allowed across origins", f"{bytes(response.body).decode()}.")
         refusal = Response(problem(fault, "").model_dump_json(), response.status_code, media_type=PROBLEM_JSON)
-        # what browsers are told, and caches must know
+        # fields for browsers and caches
         fields = {
             name: value for name, value in response.headers.items() if name not in ("content-type", "content-length")
         }

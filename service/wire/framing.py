@@ -15,7 +15,7 @@ class Framing(h11.Connection):
     """As h11 reads requests, but each has one end only.
 
     A proxy that believes the length sees another request where this one ends (RFC 9112, 6.1): what came after it would
-    be asked in the name of somebody else.
+    count as a request of somebody else.
     """
 
     def next_event(self) -> Any:

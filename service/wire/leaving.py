@@ -23,7 +23,7 @@ FAULTS: FaultTable = {ClientGone: fixed(499, "Client gone", "The client closed i
 
 
 class Client:
-    """Who waits for an answer: told by the server that it has gone, without a task that waits for that.
+    """Who waits for an answer: the server reports when it has gone, without a task that waits for that.
 
     sent_all : whether its whole body has come.
     """

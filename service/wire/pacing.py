@@ -35,7 +35,7 @@ class Pacing:
             if refused:
                 return
             if message["type"] == "http.response.start":
-                # whether it is answered so is known with the first part of its body
+                # the first part of its body shows whether it is answered so
                 start = message
                 return
             body = message.get("body", b"")

@@ -1,6 +1,6 @@
 """Requests as nearly every client sends them, read and answered without h11, whose generality is a fifth of the work.
 
-What has anything unusual about it is none of these: no HTTP/1.1, a body in chunks, a client that waits to be told to
+What has anything unusual about it is none of these: no HTTP/1.1, a body in chunks, a client that waits for a word to
 go on, a repeated length, letters beside US-ASCII, a head that comes in pieces. h11 reads it, or refuses it.
 """
 
@@ -75,7 +75,7 @@ class Heads:
 
 
 class PlainCycle(RequestResponseCycle):
-    """One request and its answer, which is written as it is given."""
+    """One request and its answer, which is written piece by piece."""
 
     #: of an answer whose length was said what is to come [bytes]; None of one in chunks
     _left: int | None = None

@@ -35,5 +35,5 @@ def too_many_connections() -> Fault:
 
 @cache
 def no_room() -> bytes:
-    """The answer to a connection for which there is no room, made once: whoever comes too often is told as often."""
+    """The answer to a connection for which there is no room, made once: whoever comes too often gets it as often."""
     return last_answer(h11.Connection(h11.SERVER), too_many_connections())

@@ -1,4 +1,4 @@
-"""What browsers are told about every answer."""
+"""Headers for browsers in every answer."""
 
 from collections.abc import Awaitable
 from functools import lru_cache

@@ -21,7 +21,7 @@ class Spares:
                 return
 
     def lend(self) -> bool:
-        """Make room for one file more, which must be given back; whether there is any."""
+        """Make room for one file more, which must be returned; whether there is any."""
         if not self._files:
             return False
         os.close(self._files.pop())

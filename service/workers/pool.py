@@ -1,4 +1,4 @@
-"""Workers lent to requests: started when needed, ended when a client is gone or its time over, replaced when dead."""
+"""Workers lent to requests: started on demand, ended when a client is gone or its time over, replaced when dead."""
 
 import logging
 from asyncio import FIRST_COMPLETED, Future, ensure_future, gather, timeout, wait
@@ -70,7 +70,7 @@ class Pool:
     shares : processes for short computations and for long ones, and requests that may wait for each.
     timeout_s : for waiting and computing [s].
     memory_mb : of one worker [MB].
-    folder : for large answers while they are read; that of the system for such files if not given.
+    folder : for large answers while they are read; by default that of the system for such files.
     """
 
     shares: Mapping[Resource, Share]
@@ -110,7 +110,7 @@ class Pool:
         return tuple(worker.pid for worker in (*self._idle, *self._busy))
 
     def open(self) -> None:
-        """Load the optimiser and start every worker; this takes seconds. Without it they start when needed.
+        """Load the optimiser and start every worker; this takes seconds. Without it they start on demand.
 
         From then on a worker that ends is replaced before anybody needs it. A pool that is closed meanwhile needs none.
 
@@ -277,7 +277,7 @@ class Pool:
             self._starts = ensure_future(self._start_all())
 
     async def _start_all(self) -> None:
-        # why none can be started is told to whoever needs one
+        # the next request for a worker raises why none can be started
         with suppress(WorkersFailed):
             while len(self._idle) + len(self._busy) < self._least and not self._closed:
                 self._spare(await self._fresh())
@@ -304,7 +304,7 @@ class Pool:
         # one that was begun anew elsewhere is still computed here
         spent = isinstance(outcome, Crashed) or worker.computed_s is None
         if spent or getattr(outcome, "resident", 0) > self.memory_mb * _MB / 2 or len(self._idle) >= self._most_workers:
-            # fresh ones hold no more than they need, and there are no more of them than needed
+            # fresh ones hold no more memory than necessary, and there are no more of them than necessary
             await self._in_thread(worker.end)
             self._replace()
         else:

@@ -1,6 +1,6 @@
 """Imported by the process that workers are forked from: loads what most answers need, and solves a machine once.
 
-What few questions need is loaded by the worker that is asked: the modelling layer, workbooks, pages and studies take
+What few requests need is loaded by their worker: the modelling layer, workbooks, pages and studies take
 longer than all else together, and a service would be ready so much later.
 """
 

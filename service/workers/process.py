@@ -1,4 +1,4 @@
-"""One worker as the service sees it: a process that is forked, asked, and killed."""
+"""One worker as the service sees it: a process that is forked, called, and killed."""
 
 import asyncio
 import logging
@@ -124,7 +124,7 @@ class Worker:
             lanes.lower(self._lane, priority, self.pid)
 
     def kill(self) -> None:
-        """Kill it; who waits for its answer is told that it is dead."""
+        """Kill it; who waits for its answer gets the fault."""
         with suppress(OSError, ValueError, AttributeError):
             self._process.kill()
 

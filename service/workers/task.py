@@ -1,4 +1,4 @@
-"""What a worker is asked: bytes over a socket, of which all but the body are the same again and again."""
+"""The task of a worker: bytes over a socket, of which all but the body are the same again and again."""
 
 import pickle
 import struct
@@ -67,7 +67,7 @@ class _Orders:
     """Orders as bytes, pickled once: dozens of names cost more than to check a request, and so does their hash."""
 
     def __init__(self) -> None:
-        # an order is held as long as it is known by the identities of its parts
+        # an order stays as long as the identities of its parts
         self._entries: dict[tuple[int, ...], tuple[tuple[object, ...], bytes]] = {}
 
     def bytes_of(self, order: tuple[object, ...]) -> bytes:

@@ -46,7 +46,7 @@ REFUSALS = (UnreadableBody, InvalidRequest, NotComputable)
 
 
 class OutOfMemory(Exception):
-    """The computation needs more memory than it is given."""
+    """The computation needs more memory than its limit."""
 
 
 class NoRoom(Exception):
@@ -55,7 +55,7 @@ class NoRoom(Exception):
 
 @record(frozen=True)
 class Certified:
-    """How an optimum was found: method, seconds, certified relative gap."""
+    """The proof of an optimum: method, seconds, certified relative gap."""
 
     method: str
     solve_s: float
@@ -72,7 +72,7 @@ class Answer:
     seconds : time of the whole computation.
     resident : memory that the worker holds, seen a moment ago at most [bytes].
     file : of a large content, without a name: it is gone when nobody reads it any more.
-    faults : what the service found wrong with its own answer, and says in it.
+    faults : number of own answers that the service has reported as wrong, in the answer too.
     stem : what a file of the answer is called, without the ending; None where it has no name of its own.
     """
 
@@ -259,7 +259,7 @@ def perform(task: Task) -> Outcome | Long:
 
 
 def _request(task: Task, places: ExitStack) -> Model:
-    """What is asked; until the stack ends problems of a workbook are said to be in its cells."""
+    """The request of a task; until the stack ends problems of a workbook are said to be in its cells."""
     if not task.workbook:
         return read_request(task.computation.request_model, task.body)
     # only who sends workbooks pays for the library

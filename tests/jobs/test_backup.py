@@ -19,7 +19,7 @@ from service.jobs.job import Job
 from tests.docs.reading import ROOT
 from tests.jobs import postgres, synthetic
 from tests.jobs.house import House
-from tests.jobs.test_coordinator import threads
+from tests.jobs.threads import threads
 from tests.night import at_night
 
 TEXT = (ROOT / "docs/operation.md").read_text()

@@ -1,27 +1,14 @@
 """Coordinators on engines: the same rows whatever happens. The value of row i is i / 7 (analytic)."""
 
-import errno
-import json
-import os
-import sqlite3
-import subprocess
 import threading
 import time
-from collections.abc import Callable, Iterator
-from concurrent.futures import Future, ThreadPoolExecutor
-from contextlib import contextmanager
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 import pytest
 
-from schemas.sweep.request import SweepRequest
 from service.jobs.engines import Engine, engine
-from service.jobs.files import JobFiles
-from service.jobs.fingerprints import fingerprint
-from service.jobs.job import Order, Record
-from service.jobs.kinds import KINDS
 from service.jobs.pace import Pace
 from service.jobs.piece import ChunkResult
 from service.jobs.rows import Limits
@@ -29,7 +16,7 @@ from service.settings import Settings
 from tests.jobs import synthetic
 from tests.jobs.failover import CHUNK_S, MOST_S
 from tests.jobs.house import QUICK, House
-from tests.jobs.sweeps import MACHINE, analyses
+from tests.jobs.threads import Threads, threads
 from tests.night import part
 
 
@@ -38,39 +25,6 @@ def test_the_chunks_of_a_service_that_is_gone_are_another_ones_in_time() -> None
     longest_s = Settings().lease_s + Pace().poll_s + 2 * CHUNK_S
     assert longest_s < MOST_S
     assert Pace().lease_s == Settings().lease_s
-
-
-class Threads:
-    """The simplest executor."""
-
-    def __init__(self, workers: int) -> None:
-        self.executor = ThreadPoolExecutor(workers)
-        self._workers = workers
-
-    def submit(self, task: Callable[..., ChunkResult], *arguments: object) -> "Future[ChunkResult]":
-        return self.executor.submit(task, *arguments)
-
-    def window(self) -> int:
-        return 2 * self._workers
-
-    def end(self) -> None:
-        self.executor.shutdown(wait=True, cancel_futures=True)
-
-
-def threads(workers: int = 2) -> Engine:
-    return Engine(lambda: Threads(workers))
-
-
-@contextmanager
-def tiny_disk(folder: Path, size: str) -> Iterator[None]:
-    folder.mkdir(exist_ok=True)
-    mounted = subprocess.run(["mount", "-t", "tmpfs", "-o", f"size={size}", "tmpfs", folder], capture_output=True)
-    if mounted.returncode:
-        pytest.skip("a tiny disk cannot be mounted here")
-    try:
-        yield
-    finally:
-        subprocess.run(["umount", "--lazy", folder], check=True)
 
 
 @pytest.mark.parametrize(("workers", "chunk_rows"), part(2, [(1, 1), (2, 7), (3, 7), (3, 100)], rows=True))
@@ -182,87 +136,6 @@ def test_two_coordinators_share_a_job(any_house: House) -> None:
     assert any_house.rows(job).equals(synthetic.rows(0, 200))
 
 
-def test_what_was_written_but_not_told_is_written_again(house: House) -> None:
-    job = house.submit(total=20, chunk_rows=10)
-    # a crash between the file and the database, and one before the file had its name
-    house.files.keep(job, 0, 10, b"whatever")
-    (house.files.folder(job) / ".000000010-000000020.99").write_bytes(b"half")
-    with house.coordinator(threads()):
-        assert house.wait(job).state == "done"
-        house.wait_until_tidy(job)
-    assert house.rows(job).equals(synthetic.rows(0, 20))
-
-
-@pytest.mark.parametrize("code", [errno.ENOSPC, errno.EIO])
-def test_a_file_that_cannot_be_written_fails_the_job(house: House, monkeypatch: pytest.MonkeyPatch, code: int) -> None:
-    job = house.submit(total=40, chunk_rows=10)
-    keep = JobFiles.keep
-
-    def breaks(self: JobFiles, job: str, start: int, stop: int, content: bytes) -> Record:
-        if start == 20:
-            raise OSError(code, os.strerror(code))
-        return keep(self, job, start, stop, content)
-
-    monkeypatch.setattr(JobFiles, "keep", breaks)
-    with house.coordinator(threads(1)):
-        outcome = house.wait(job)
-    assert (outcome.state, outcome.error) == ("failed", f"rows 20 to 29 cannot be written: {os.strerror(code)}")
-    assert house.rows(job).equals(synthetic.rows(0, 20))
-    monkeypatch.undo()
-
-
-def test_a_disk_that_is_really_full(tmp_path: Path, synthetic_kind: None) -> None:
-    with tiny_disk(tmp_path / "disk", "400k"):
-        house = House(tmp_path / "disk")
-        job = house.submit(total=100_000, chunk_rows=500)
-        with house.coordinator(threads(1)) as coordinator:
-            deadline = time.monotonic() + 240
-            while house.store.get(job).active and coordinator.verdict(job) is None:
-                assert time.monotonic() < deadline
-                time.sleep(0.02)
-            record = house.store.get(job)
-            reason = record.error or coordinator.verdict(job) or ""
-        assert "No space left" in reason or "full" in reason
-        assert 0 < record.done < 100_000
-        assert house.rows(job).equals(synthetic.rows(0, record.done))
-        house.database.close()
-
-
-def test_a_locked_database_fails_nothing(tmp_path: Path) -> None:
-    house = House(tmp_path, busy_s=0.1)
-    go = tmp_path / "go"
-    job = house.submit(total=200, chunk_rows=2, sleep_s=0.02, held_from=100, held_until=str(go))
-    with house.coordinator(threads()) as coordinator:
-        house.wait_for_rows(job)
-        connection = sqlite3.connect(tmp_path / "jobs.sqlite", timeout=180, isolation_level=None)
-        connection.execute("BEGIN IMMEDIATE")
-        # longer than leases and attempts last
-        time.sleep(3)
-        assert (coordinator.verdict(job), house.store.get(job).state) == (None, "running")
-        connection.execute("ROLLBACK")
-        connection.close()
-        go.touch()
-        assert house.wait(job).state == "done"
-    assert house.rows(job).equals(synthetic.rows(0, 200))
-    house.database.close()
-
-
-def test_a_database_that_is_locked_for_a_moment_costs_nothing(tmp_path: Path) -> None:
-    house = House(tmp_path, busy_s=0.05)
-    job = house.submit(total=50, chunk_rows=2, sleep_s=0.02)
-    with house.coordinator(threads(), QUICK):
-        for _ in range(3):
-            house.wait_for_rows(job)
-            with sqlite3.connect(tmp_path / "jobs.sqlite", timeout=180, isolation_level=None) as connection:
-                connection.execute("BEGIN IMMEDIATE")
-                time.sleep(0.3)
-                connection.execute("ROLLBACK")
-            connection.close()
-        assert house.wait(job).state == "done"
-    assert house.rows(job).equals(synthetic.rows(0, 50))
-    house.database.close()
-
-
 def test_an_expired_job_leaves_nothing_behind(tmp_path: Path) -> None:
     house = House(tmp_path, limits=Limits(keep_s=0.1))
     job = house.submit(total=10)
@@ -308,61 +181,6 @@ def test_the_window_is_bounded(house: House, tmp_path: Path) -> None:
         go.touch()
         assert house.wait(job).state == "done"
     assert most == 4
-
-
-# ---- two versions side by side
-
-
-def _of_a_later_version(**more: Any) -> bytes:
-    """A sweep as a version stores it that has a field more, with all of its defaults."""
-    body = json.loads(SweepRequest.model_validate(analyses(4, 5)).model_dump_json())
-    return json.dumps({**body, "newest": 7, **more}).encode()
-
-
-def test_a_job_of_a_later_version_is_left_to_it(
-    house: House, monkeypatch: pytest.MonkeyPatch, caplog: pytest.LogCaptureFixture
-) -> None:
-    request, columns = _of_a_later_version(), synthetic.SCHEMA.serialize().to_pybytes()
-    order = Order("sweep", request, fingerprint("sweep", request), 20, 5, columns)
-    job, _ = house.store.submit(order)
-    own = house.submit(total=20, chunk_rows=5)
-    with house.coordinator(threads(1)):
-        assert house.wait(own).state == "done"
-    state = house.store.get(job.id)
-    # before, each of its rows was tried alone, and the job failed
-    assert (state.active, state.done, state.failed, state.error) == (True, 0, 0, None)
-    assert sum("does not know" in record.getMessage() for record in caplog.records) == 1
-    # a service of that version, beside this one or after a step back and forth
-    monkeypatch.setitem(KINDS, "sweep", replace(KINDS["sweep"], later=lambda _: False))  # type: ignore[arg-type]
-    with house.coordinator(threads(1)):
-        assert house.wait(job.id).state == "done"
-    assert house.rows(job.id).equals(synthetic.rows(0, 20))
-
-
-def test_a_kind_of_a_later_version_is_left_to_it(house: House, monkeypatch: pytest.MonkeyPatch) -> None:
-    columns = synthetic.SCHEMA.serialize().to_pybytes()
-    job, _ = house.store.submit(Order("newest", b"{}", fingerprint("newest", b"{}"), 20, 5, columns))
-    own = house.submit(total=20, chunk_rows=5)
-    with house.coordinator(threads(1)):
-        assert house.wait(own).state == "done"
-    record = house.store.get(job.id)
-    assert (record.active, record.done, record.failed, record.error) == (True, 0, 0, None)
-    monkeypatch.setitem(KINDS, "newest", synthetic.KIND)  # type: ignore[arg-type]
-    with house.coordinator(threads(1)):
-        assert house.wait(job.id).state == "done"
-
-
-def test_what_a_version_does_not_know_is_told_from_what_is_wrong() -> None:
-    sweep, front = KINDS["sweep"].later, KINDS["pareto"].later
-    today = SweepRequest.model_validate(analyses(4, 5)).model_dump_json()
-    base = json.loads(today)["base"]
-    assert not sweep(today.encode())
-    assert sweep(_of_a_later_version())
-    assert sweep(today.replace('"grid"', '"sobol"').encode())
-    assert sweep(json.dumps({**json.loads(today), "base": {**base, "machine": {**base["machine"], "new": 1}}}).encode())
-    assert not sweep(json.dumps({**json.loads(today), "axes": []}).encode())
-    points = {"machine": MACHINE, "points": 3}
-    assert (front(json.dumps(points).encode()), front(json.dumps({**points, "new": 1}).encode())) == (False, True)
 
 
 def test_one_thread_and_none_of_what_has_been_stopped(house: House) -> None:

@@ -33,8 +33,9 @@ from tests.jobs.flips import flip
 from tests.jobs.house import House
 from tests.jobs.process import service
 from tests.jobs.sweeps import analyses
-from tests.jobs.test_coordinator import threads, tiny_disk
 from tests.jobs.test_kills import SWEEP, expected
+from tests.jobs.threads import threads
+from tests.jobs.tiny_disk import tiny_disk
 
 
 def test_flips_are_refused_and_repaired(tmp_path: Path) -> None:

@@ -16,7 +16,7 @@ from service.jobs.job import Record
 from service.jobs.owner_jobs import OwnerJobs, Parts, RowsDamaged
 from tests.jobs import synthetic
 from tests.jobs.house import House
-from tests.jobs.test_coordinator import threads
+from tests.jobs.threads import threads
 from tests.night import part
 
 

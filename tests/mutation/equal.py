@@ -47,13 +47,13 @@ _PROGRAM: dict[str, str] = {
     " -> self.levels.of_bound - self.levels.most - self.margin": _STEERS,
     "cuts/stage.py run: 0.0 -> 0.001": _STEERS,
     "methods/cascade.py _under_ceilings: nearest.objective <= -AMPLE -> nearest.objective < -AMPLE": _ALIKE,
-    "methods/compiled.py _programs: np.add.reduce(mass, axis=-1, keepdims=True)"
+    "methods/stage_ends.py _programs: np.add.reduce(mass, axis=-1, keepdims=True)"
     " -> np.add.reduce(mass, axis=+1, keepdims=True)": "it has two axes",
-    "methods/compiled.py _programs: np.maximum.reduce(statement.floor, axis=-1)"
+    "methods/stage_ends.py _programs: np.maximum.reduce(statement.floor, axis=-1)"
     " -> np.maximum.reduce(statement.floor, axis=+1)": "it has two axes",
-    "methods/compiled.py _programs: -1 -> +1": "it has two axes",
-    "methods/compiled.py _solve: statement.limits.radius.shape[-1] -> statement.limits.radius.shape[-2]": "without webs"
-    " the same is found by solving",
+    "methods/stage_ends.py _programs: -1 -> +1": "it has two axes",
+    "methods/stage_ends.py solve_stages: statement.limits.radius.shape[-1]"
+    " -> statement.limits.radius.shape[-2]": "without webs solving gives the same",
     "methods/polish.py lightened: statement.limits.radius.size == 0 -> statement.limits.radius.size == 1": _STEERS,
     "methods/compiled.py _general: points_at(statement.subset(left), nearest).excess < 0"
     " -> points_at(statement.subset(left), nearest).excess < 1": _STEERS,
@@ -123,7 +123,7 @@ _VERIFY: dict[str, str] = {
     " steps of numbers at most",
     "verify_cases.py cases: path[1:2] -> path[1:3]": "beside balance shafts the service takes no scenarios",
     "verify_weights.py shafts: ratio > 0 -> ratio >= 0": "no shaft stands still",
-    "verify_weights.py listed: room <= TOUCHED - UNSURE -> room < TOUCHED - UNSURE": "no room is that to the bit",
+    "verify_weights.py active_limits: room <= TOUCHED - UNSURE -> room < TOUCHED - UNSURE": "no room is that exactly",
     "verify_shafts.py power: times > 0 -> times >= 0": "0 times nothing is multiplied",
     "verify_numbers.py _distance: low >= 0 -> low > 0": _ALIKE,
     "verify_rods.py _root: curve(middle) * first > 0 -> curve(middle) * first >= 0": "halving comes to the same place"
@@ -154,11 +154,11 @@ _TO_BOTH_SIDES = (
     "verify_answer.py gaps: size * real(MASS_GAP) + noise",
     "verify_cranks.py balance_rates: direction((throw / 'crank_angle_deg').double()) + machine.blur",
     "verify_cranks.py balance_rates: total(against) + BLUR * total((abs(part) for part in against))",
-    "verify_curves.py seen: mass.co + machine.blur",
-    "verify_curves.py turned: direction(degrees) + self.machine.blur",
+    "verify_curves.py on_shaft: mass.co + machine.blur",
+    "verify_curves.py unit: direction(degrees) + self.machine.blur",
     "verify_cuts.py _mean: real(mean.real) + around",
     "verify_cuts.py _mean: real(mean.imag) + around",
-    "verify_cuts.py _mean: real(curve.moved(-mean).rms) + around",
+    "verify_cuts.py _mean: real(curve.plus(-mean).rms) + around",
     "verify_cuts.py _fixed: mass.co + self.machine.blur",
     "verify_cuts.py value: most[name] + SPECK * size",
     "verify_first.py near_the_bound: above + noise",
@@ -190,8 +190,8 @@ _ABOUT_ONE = (
     "verify_cases.py scatter: real(share) * ABOUT_ONE",
     "verify_cranks.py balance_rates: total(turning) * (throw / 'crank_radius_m').number() * machine.wide",
     "verify_cranks.py balance_rates: part * ABOUT_ONE",
-    "verify_curves.py seen: row.product * machine.wide",
-    "verify_curves.py seen: mass.product * machine.wide",
+    "verify_curves.py on_shaft: row.product * machine.wide",
+    "verify_curves.py on_shaft: mass.product * machine.wide",
     "verify_cuts.py term: self.weights[kind] * ABOUT_ONE",
     "verify_cuts.py _mean: self.weights['bearing'] * ABOUT_ONE",
     "verify_first.py most: largest(mass - statement.machine.fixed, counts * real(MASS_SHARE)) * ABOUT_ONE",
@@ -230,7 +230,7 @@ _ABOUT_ONE = (
 _STEPS = (
     "verify_answer.py gaps: size.low > 0",
     "verify_claims.py _share: size.high > 0",
-    "verify_curves.py seen: upright.low <= 0",
+    "verify_curves.py on_shaft: upright.low <= 0",
     "verify_cuts.py __init__: weights['roll'].high > 0",
     "verify_cuts.py term: self.weights[kind].high <= 0",
     "verify_first.py optimum: weight.high > 0",

@@ -10,7 +10,7 @@ import pytest
 
 from optimizer.program.kernel import discs, interior_point
 from optimizer.program.kernel.finer_numbers import PRECISIONS
-from optimizer.program.methods import compiled
+from optimizer.program.methods import stage_ends
 from optimizer.program.reference import solver
 from optimizer.program.reference.assembled import NoPoint
 from tests.optimize.asking import OMEGA_SQUARED, answer, single
@@ -93,10 +93,10 @@ def broken(monkeypatch: pytest.MonkeyPatch, change: Callable[[dict[str, Any]], d
         return run
 
     # in finer numbers it is made from the compiled one, and once: before that is changed
-    finer = {precision: changed(compiled.solve_in(precision)) for precision in PRECISIONS}
+    finer = {precision: changed(stage_ends.solve_in(precision)) for precision in PRECISIONS}
     for method in (discs, interior_point):
         monkeypatch.setattr(method, "solve", changed(method.solve))
-    monkeypatch.setattr(compiled, "solve_in", finer.__getitem__)
+    monkeypatch.setattr(stage_ends, "solve_in", finer.__getitem__)
 
 
 def test_a_solver_that_fails_is_never_silent(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -8,8 +8,9 @@ import pytest
 from optimizer.program.ceilings import CEILING_TOLERANCE
 from optimizer.program.certificate import nothing_proven
 from optimizer.program.kernel.judging import is_better, step_towards
-from optimizer.program.methods.compiled import pulled, suits_kernel
+from optimizer.program.methods.compiled import suits_kernel
 from optimizer.program.methods.disc_programs import suits_discs
+from optimizer.program.methods.stage_ends import pulled
 from optimizer.program.points import points_at
 from optimizer.program.solution import CEILING_ROUNDING, ConeSolution, evaluated, side_by_side
 from tests.program.cases import random_point

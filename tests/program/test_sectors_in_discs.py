@@ -17,6 +17,7 @@ from optimizer.program.methods import compiled
 from optimizer.program.methods.compiled import StageSolutions, stage_solutions
 from optimizer.program.methods.disc_programs import disc_stages, discs_of, suits_discs
 from optimizer.program.methods.optima import optima
+from optimizer.program.methods.stage_ends import solve_stages
 from optimizer.program.reference.solver import smallest_objective
 from optimizer.program.rows import combined, statement, weighted_peak
 from optimizer.program.statement import Statement
@@ -35,7 +36,7 @@ def share(problem: Statement) -> np.ndarray:
 def in_discs(problem: Statement) -> StageSolutions:
     """Without help: of what is not proven nothing is certified."""
     part = share(problem)
-    solved = compiled._solve(problem, part, True, compiled._DOUBLE, disc_stages)
+    solved = solve_stages(problem, part, True, compiled._DOUBLE, disc_stages)
     return compiled._judged(problem, part, part, True, solved)
 
 

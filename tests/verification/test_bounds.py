@@ -48,8 +48,8 @@ def test_identical_castings_are_alike_from_their_cranks(angles: tuple[float, ...
 def test_limits_that_are_touched_are_listed_once(names: list[str], right: bool) -> None:
     """Analytic: a ten thousandth is left at most; within 1e-9 of that they may be listed or not."""
     rooms = {"a": 1e-4 - 1.01e-9, "b": 1e-4 + 0.99e-9, "c": 1e-4 + 1.01e-9, "n": math.nan}
-    assert held(part("weights").listed("x", place(names), rooms)) == right
-    assert held(part("weights").listed("x", place([]), {"b": 1e-4 - 0.99e-9}))
+    assert held(part("weights").active_limits("x", place(names), rooms)) == right
+    assert held(part("weights").active_limits("x", place([]), {"b": 1e-4 - 0.99e-9}))
 
 
 _CRANK = Fields(throw=1, degrees=300.0)
@@ -116,14 +116,14 @@ def _priced(**more: Any) -> Any:
 )  # fmt: skip
 def test_a_price_is_by_what_is_weighed_first(value: float, right: bool) -> None:
     position = place([{"limit": "max_mass", "web": "a", "value": value, "unit": "N/kg"}])
-    assert held(part("prices").listed_prices(position, [_priced()], 4.0, "N", 1e-9, 1e-9, 0.0)) == right
+    assert held(part("prices").price_entries(position, [_priced()], 4.0, "N", 1e-9, 1e-9, 0.0)) == right
 
 
 @pytest.mark.parametrize(("gap", "right"), [(17.99, True), (17.97, False)])
 def test_a_whole_limit_that_is_worth_less_than_the_gap_has_no_price(gap: float, right: bool) -> None:
     """Analytic: 3 kg at 6 N/kg are 18 N, and a thousandth of the gap more counts as less."""
     position = place([{"limit": "max_mass", "web": "a", "value": 0.0, "unit": "N/kg"}])
-    assert held(part("prices").listed_prices(position, [_priced()], 4.0, "N", gap, 1e-9, 0.0)) == right
+    assert held(part("prices").price_entries(position, [_priced()], 4.0, "N", gap, 1e-9, 0.0)) == right
 
 
 @pytest.mark.parametrize(("off", "dust", "rest", "right"), [
@@ -134,7 +134,7 @@ def test_a_whole_limit_that_is_worth_less_than_the_gap_has_no_price(gap: float, 
 def test_what_rounding_leaves_of_a_price(off: float, dust: float, rest: float, right: bool) -> None:
     for sign in (1, -1):
         position = place([{"limit": "max_mass", "web": "a", "value": 1.5 + sign * off, "unit": "N/kg"}])
-        assert held(part("prices").listed_prices(position, [_priced()], 4.0, "N", 1e-9, rest, dust)) == right
+        assert held(part("prices").price_entries(position, [_priced()], 4.0, "N", 1e-9, rest, dust)) == right
 
 
 @pytest.mark.parametrize(("price", "touched", "edge", "must"), [
@@ -144,13 +144,13 @@ def test_what_rounding_leaves_of_a_price(off: float, dust: float, rest: float, r
 def test_a_limit_that_is_worth_something_is_listed(price: float, touched: bool, edge: bool, must: bool) -> None:
     """Analytic: a whole limit of 3 kg that is worth more than 1e-6 of 3000 N."""
     stated = [_priced(price=price, touched=touched, edge=edge)]
-    assert held(part("prices").listed_prices(place([]), stated, 1.0, "N", 1.0, 3000.0, 0.0)) != must
+    assert held(part("prices").price_entries(place([]), stated, 1.0, "N", 1.0, 3000.0, 0.0)) != must
     # what is listed twice, or is no limit
     first = {"limit": "max_mass", "web": "a", "value": price, "unit": "N/kg"}
-    assert not held(part("prices").listed_prices(place([first, first]), stated, 1.0, "N", 1.0, 3000.0, 0.0))
+    assert not held(part("prices").price_entries(place([first, first]), stated, 1.0, "N", 1.0, 3000.0, 0.0))
     second = first | {"web": "b"}
-    assert not held(part("prices").listed_prices(place([first, second]), stated, 1.0, "N", 1.0, 3000.0, 0.0))
-    assert not held(part("prices").listed_prices(place([first | {"unit": "N"}]), stated, 1.0, "N", 1.0, 3e3, 0.0))
+    assert not held(part("prices").price_entries(place([first, second]), stated, 1.0, "N", 1.0, 3000.0, 0.0))
+    assert not held(part("prices").price_entries(place([first | {"unit": "N"}]), stated, 1.0, "N", 1.0, 3e3, 0.0))
 
 
 @pytest.mark.parametrize(("values", "value", "right"), [
@@ -202,7 +202,7 @@ def test_what_turns_with_a_balance_shaft(ratio: int, mirrored: bool) -> None:
     numbers, t, p = part("numbers"), 0.7, 0.3 - 0.8j
     unit = numbers.direction(math.degrees(t))
     shaft = part("shafts").Geared(None, ratio, real(p.real) + numbers.J * real(p.imag), mirrored)
-    assert shaft.seen(unit).middle() == pytest.approx(ratio**2 * cmath.exp(1j * (ratio - 1) * t), rel=1e-13)
+    assert shaft.on_shaft(unit).middle() == pytest.approx(ratio**2 * cmath.exp(1j * (ratio - 1) * t), rel=1e-13)
     around = -1j * p.conjugate() * ratio**2 * cmath.exp(1j * ratio * t)
     assert shaft.roll(unit).middle() == pytest.approx(around.conjugate() if mirrored else around, rel=1e-13)
     ways = numbers.direction(40.0), numbers.direction(100.0)

@@ -81,7 +81,7 @@ def test_no_middle_is_nearer_to_a_curve_than_its_circle(harmonics: dict[int, com
     if minimum is not None:
         assert minimum.low <= minimum.high <= minimum.low * (1 + 1e-7) + 1e-11 * curve.size
         for way in (1, 1j, -1, -1j):
-            moved = curve.moved(-minimum.middle - way * 0.01 * curve.size).peak()
+            moved = curve.plus(-minimum.middle - way * 0.01 * curve.size).peak()
             assert moved.high >= minimum.low * (1 - 1e-9)
 
 

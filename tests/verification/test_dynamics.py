@@ -150,8 +150,8 @@ def test_a_peak_of_pressed_rows_is_enclosed(name: str, data: st.DataObject) -> N
     pistons, pressed = _pistons(name), part("pressed")
     reading = data.draw(st.sampled_from(["piston", "rod", "side", "tangential", "radial", "shaft"]))
     weight = st.complex_numbers(max_magnitude=2, allow_nan=False) if reading == "shaft" else st.floats(-2, 2)
-    curve = pressed.Pressed(pistons, reading, [(k, data.draw(weight)) for k in range(len(pistons.rows))])
-    curve = curve.moved(data.draw(st.floats(-1e4, 1e4)))
+    curve = pressed.PressureCurve(pistons, reading, [(k, data.draw(weight)) for k in range(len(pistons.rows))])
+    curve = curve.plus(data.draw(st.floats(-1e4, 1e4)))
     sign = 0 if reading == "shaft" else data.draw(st.sampled_from([-1, 0, 1]))
     peak = curve.peak(sign=sign)
     assert peak.high <= peak.low + 1e-9 * abs(peak.low) + 1e-11 * curve.size
@@ -165,7 +165,7 @@ def test_a_peak_of_pressed_rows_is_enclosed(name: str, data: st.DataObject) -> N
 def test_mean_and_root_mean_square_by_a_quadrature() -> None:
     """Independent: the trapezoidal rule at many angles."""
     pistons = _pistons("four strokes")
-    curve = part("pressed").Pressed(pistons, "shaft", [(0, 1.0), (1, 0.5j)]).moved(50j)
+    curve = part("pressed").PressureCurve(pistons, "shaft", [(0, 1.0), (1, 0.5j)]).plus(50j)
     values = np.array([curve.value(angle) for angle in np.linspace(0.0, pistons.period, 8_000, endpoint=False)])
     assert abs(curve.mean - values.mean()) < 1e-3 * curve.size
     assert curve.rms == pytest.approx(np.sqrt(np.mean(np.abs(values) ** 2)), rel=1e-3)

@@ -277,7 +277,7 @@ def test_the_bending_of_many_planes_is_not_covered(planes: int, rows: int, order
     row = Fields(position=0.0, axis=1j)
     turn = Fields(pistons=Fields(rows=[row] * rows), turning=[], place=place({}, "request", "bearings"))
     harmonics = [Fields(shaft=dict.fromkeys(range(orders), 0j))]
-    loads = Fields(pistons=harmonics, planes=[0.0] * planes, turn=turn, factor=lambda *_: 1.0, added=lambda *_: 2j)
+    loads = Fields(pistons=harmonics, planes=[0.0] * planes, turn=turn, factor=lambda *_: 1.0, vector=lambda *_: 2j)
     curve = part("loads").Loads._curve
     if right:
         actual_curve = curve(loads, "bending:0.0")

@@ -15,7 +15,7 @@ def test_a_price_is_held_up_to_what_rounding_leaves_of_it(off: float, held: bool
 
 def _held(stated: Any, values: list[Any], dust: float = 0.0) -> bool:
     place = part("numbers").Place(values, "answer", "shadow_prices")
-    claims = part("prices").listed_prices(place, [stated], 1.0, "N", 1e-9, 1.0, dust)
+    claims = part("prices").price_entries(place, [stated], 1.0, "N", 1e-9, 1.0, dust)
     return all(room.high >= 0 for _, _, room, _ in claims)
 
 

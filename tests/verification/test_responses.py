@@ -30,7 +30,7 @@ def test_what_counterweights_come_to_at_a_cut(scalar: bool, expected: float) -> 
     numbers = part("numbers")
     none = Fields(of=lambda factors, sizes: numbers.ZERO)
     machine = Fields(webs=[Fields(fixed=None)], wide=numbers.ONE, blur=numbers.ZERO)
-    program = Fields(machine=machine, first=Fields(geared=[]), off=none, named=["objective"])
+    program = Fields(machine=machine, first=Fields(geared=[]), off=none, goal_names=["objective"])
     cut = Fields(start=real(3.0) + numbers.J * real(4.0), factors=[real(2.0)], scalar=scalar, mean=False,
                  group=(None, 0), row="force", floor=numbers.ZERO)  # fmt: skip
     fitted = Fields(turning=[Fields(product=numbers.ONE, co=real(5.0) + numbers.J * real(7.0))], on_shafts=[])

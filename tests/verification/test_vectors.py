@@ -41,7 +41,7 @@ def test_corners_of_a_zonotope_are_sums_of_both_signs(count: int, scale: float) 
 def test_nothing_has_no_corners() -> None:
     assert part("misplacement").zonotope([]) == []
     assert part("misplacement").zonotope([0j, 0j]) == []
-    assert part("misplacement").turned_outline([0j]) == []
+    assert part("misplacement").rotation_outline([0j]) == []
 
 
 @pytest.mark.parametrize("start", [0j, 2.0 - 7.0j, -30.0 + 1.0j])
@@ -86,7 +86,7 @@ def test_an_outline_is_around_all_arcs_and_near_them(scale: float) -> None:
     """Analytic: tangents at the ends and in the middle leave an arc of 2 a by 1 / cos(a / 2) - 1 of its radius."""
     misplacement = part("misplacement")
     vectors = [scale * vector for vector in _VECTORS]
-    corners = misplacement.turned_outline(vectors)
+    corners = misplacement.rotation_outline(vectors)
     assert len(corners) == 4 * len(vectors)
     wide = sum(map(abs, vectors)) * (1.0 / math.cos(misplacement.ANGLE / 2.0) - 1.0)
     for way in [cmath.rect(1.0, 0.003 * n) for n in range(0, 2095, 7)]:
@@ -168,13 +168,13 @@ def test_what_a_curve_is_made_of(angle: float) -> None:
     on_frame = exact * cmath.exp(1j * angle)
     for axis, value in (("x", on_frame.real), ("y", on_frame.imag)):
         assert curve.along(axis).at(angle) == pytest.approx(complex(value), rel=1e-13)
-    assert curve.moved(1 - 2j).at(angle) == pytest.approx(exact + 1 - 2j, rel=1e-14)
-    turning = curve.moved(1 - 2j, 5).moved(3j, -2)
+    assert curve.plus(1 - 2j).at(angle) == pytest.approx(exact + 1 - 2j, rel=1e-14)
+    turning = curve.plus(1 - 2j, 5).plus(3j, -2)
     more = (1 - 2j) * cmath.exp(5j * angle) + 3j * cmath.exp(-2j * angle)
     assert turning.at(angle) == pytest.approx(exact + more, rel=1e-13)
     scalar = part("harmonics").Curve(_CURVE, scalar=True)
     assert scalar.at(angle) == pytest.approx(complex(exact.real), rel=1e-13)
-    assert scalar.moved(1 - 2j).at(angle) == pytest.approx(complex(exact.real + 1), rel=1e-13)
+    assert scalar.plus(1 - 2j).at(angle) == pytest.approx(complex(exact.real + 1), rel=1e-13)
     twice = part("harmonics").total([(2.0, _CURVE), (0.0, {9: 1j}), (-3.0, {1: 1j, 4: 2 + 0j})])
     assert twice.at(angle) == pytest.approx(2 * exact - 3j * cmath.exp(1j * angle) - 6 * cmath.exp(4j * angle))
     assert 9 not in twice.harmonics

@@ -1,7 +1,7 @@
 """Light sets near the optimum of any masses, of slots with many options.
 
-The lightest optimum of any masses is on few webs. Of their options those that are near to it, beside light ones on two
-or four other slots, are compared in halves: some ten thousand sums on either side, of each the nearest of the other.
+The lightest optimum of any masses is on few webs. Their options near it are compared in halves, beside light ones on
+two or four other slots: some ten thousand sums on either side, of each the nearest of the other.
 Force and moment have four real dimensions, in which so many sums lie close together.
 """
 
@@ -24,7 +24,7 @@ from optimizer.program.statement import Statement
 
 #: part numbers that are tried where any number may be used, and the share of the time left that these have
 _SIZES, _OF_SIZES = 2, 0.25
-#: share of the time of few part numbers in which sizes are tried for a light set that is as good as asked
+#: share of the time of few part numbers in which sizes are tried for a light set within the target gap
 _FIRST = 0.4
 
 
@@ -65,13 +65,13 @@ def offer_light_sets(
     sizes: LightSizes | None,
     limit: float,
 ) -> None:
-    """Offer the sets that are found so.
+    """Offer the sets of these searches.
 
     Parameters
     ----------
     below : the incumbent's program, or one of fewer rows that is nowhere above it.
     relaxed : (K,) kg m of first webs, an optimum of any masses.
-    enough : whether the best set is as good as asked.
+    enough : whether the best set is within the target gap.
     sizes : of few part numbers, what is tried first for a set that is as good.
     limit : of the objective of such a set.
     """
@@ -104,7 +104,7 @@ def offer_light_sets(
 
 
 def _lightest(statement: Statement, relaxed: Complex) -> Complex:
-    """(K,) kg m: the lightest optimum of any masses, or the one that is known."""
+    """(K,) kg m: the lightest optimum of any masses, or ``relaxed`` where the kernel does not apply."""
     if not suits_kernel(statement) or not statement.at_rest > 0:
         return relaxed
     share = np.array([OPTIMUM_SHARE * float(statement.at_rest)])

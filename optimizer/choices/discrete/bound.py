@@ -2,7 +2,7 @@
 
 Whatever they are, P >= constant + sum_k min over the options left of Re(conj(slope_k) u), with prices for the budget
 and for the number of counterweights (docs/mathematics.md section 16). An option by which that minimum rises to what is
-known already is worth no look: it is forced out.
+the incumbent's value needs no search: it is forced out.
 """
 
 from typing import NamedTuple

@@ -1,8 +1,8 @@
 """Branch and bound: nodes are what is left of the options; the batch kernel finds the multipliers of their bounds.
 
-A node is first bounded by the multipliers of the one that it comes from, raised a little; what that does not close is
+A node is first bounded by the multipliers of its parent, raised a little. What that does not close is
 relaxed to discs, segments and sectors about its options, which the kernel takes as limits (``relaxed.py``). Whatever it
-returns, multipliers prove (``bound.py``), and options by which the bound rises to what is known are left out.
+returns, multipliers prove (``bound.py``), and options by which the bound rises to the incumbent are left out.
 """
 
 from collections.abc import Callable, Iterator
@@ -62,7 +62,7 @@ def branch(
 
     Parameters
     ----------
-    at_least : what the objective is known to come to.
+    at_least : lower bound of the objective.
     gap : in units of the objective, 0 to tell all but equals apart.
     enough : whether a bound of all sets that were not offered ends the search.
     clock : what is left of the time.

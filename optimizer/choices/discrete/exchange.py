@@ -29,13 +29,13 @@ def start(incumbent: Incumbent, u: Complex) -> None:
 
 
 def neighbourhoods(incumbent: Incumbent, u: Complex, patience: int, enough: Callable[[], bool], clock: Clock) -> None:
-    """Make the set better, a few slots at a time, until nothing is found for a while.
+    """Make the set better, a few slots at a time, until many attempts in a row fail.
 
     Parameters
     ----------
     u : (K,) kg m, what the options that are tried are near to, beside what is on the slots.
     patience : neighbourhoods in a row, for every slot, without a better set, after which it ends.
-    enough : whether it is as good as asked.
+    enough : whether the set is within the target gap.
     """
     options, chance = incumbent.options, np.random.default_rng(_SEED)
     useful = np.flatnonzero(np.sum(options.exists, axis=-1) > 1)

@@ -1,4 +1,4 @@
-"""Sets of which some slots change at a time: for a better one, and for a lighter one that is as good as asked."""
+"""Sets of which some slots change at a time: for a better one, and for a lighter one within the target gap."""
 
 import math
 from collections.abc import Callable

@@ -73,7 +73,7 @@ def halves(
     pace, results, sides = Pace(clock), list[Half](), list[Sides]()
     split_sides = many[::2], many[1::2]
     if not np.isfinite(most_kg):
-        # what is given up in the end is not begun: lists are shorter by equal sums, but not by more
+        # a search that will end at its limits is not begun: lists are shorter by equal sums, but not by more
         lists = 1 if with_lists else 2
         if any(np.prod([float(len(candidates[k])) for k in side]) > SHORTER**lists * most_sums for side in split_sides):
             return None
@@ -104,8 +104,8 @@ def exhaust(
     Parameters
     ----------
     candidates : (K) options of every slot that are to be tried, at least one each.
-    most_sums, most_pairs : sums of a half, and pairs of them, beyond which it is given up.
-    clock : what is left of the time; what there is not enough for is given up.
+    most_sums, most_pairs : sums of a half, and pairs of them, beyond which the search ends without a result.
+    clock : what is left of the time; a search that would take longer does not begin.
     """
     has_counts = options.limits_fitted or options.limits_parts
     several = np.sort([float(len(entry)) for entry in candidates])[::-1]

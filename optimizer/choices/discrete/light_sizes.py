@@ -61,11 +61,11 @@ class LightSizes:
         self.history = set[Sizes]()
 
     def below(self, selection: np.ndarray | None, limit: float, clock: Clock) -> np.ndarray | None:
-        """The lightest set (K,) that is known; None where none is.
+        """The lightest set (K,) so far; None where there is none.
 
         Parameters
         ----------
-        selection : one that keeps the limit, if it is known.
+        selection : one that keeps the limit, if there is one.
         limit : of the objective. Sizes that were tried for no less are not tried again.
         """
         if self.selection is not None and self._value(self.selection) > limit:

@@ -28,9 +28,9 @@ _ROUNDING = 1e-12
 
 
 class Lightest(NamedTuple):
-    """The lightest set that was found, and what is proven."""
+    """The lightest set, and its lower bound."""
 
-    selection: np.ndarray | None  # (K,); None where none of less than the largest mass was found
+    selection: np.ndarray | None  # (K,); None where the search has none of less than the largest mass
     lower_bound: float  # kg, no set that keeps the level is lighter; inf where none can be
 
     @property
@@ -52,7 +52,7 @@ def lightest(
     Parameters
     ----------
     candidates : (K) options of every slot that are compared, at least one each.
-    masses_kg : what no set that keeps the level is lighter than, and the mass from which on none is wanted.
+    masses_kg : lower bound of a set that keeps the level, and the mass that a result must be below.
     """
     least, most = masses_kg
     within = Incumbent(statement, options, 0.0)
@@ -86,7 +86,7 @@ def lighter(
     ----------
     candidates : (K) options of every slot that are compared.
     fewer_than : or as heavy, on fewer slots than these.
-    most_pairs : near enough to the level, after which it is given up.
+    most_pairs : near enough to the level, after which the search ends without a result.
     """
     within = Incumbent(statement, options, 0.0)
     within.least = level

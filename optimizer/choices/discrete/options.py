@@ -76,7 +76,7 @@ class Options:
 
     @cached_property
     def unit_kg(self) -> float:
-        """A mass of which all are whole multiples, as of steps; 0 where none is found."""
+        """The common unit of which all masses are whole multiples, as of steps; 0 without a common unit."""
         masses = self.mass[self.exists & (self.mass > 0)]
         for share in range(1, _SHARES + 1) if masses.size else ():
             unit = float(np.min(masses)) / share
@@ -90,7 +90,7 @@ class Options:
         return max(least, float(np.ceil(least / unit * (1.0 - _WHOLE) - _WHOLE)) * unit) if unit > 0 else least
 
     def of(self, array: np.ndarray, selection: np.ndarray) -> np.ndarray:
-        """What an array (K, O) holds for the options chosen (..., K)."""
+        """Elements of an array (K, O) for a selection of options (..., K)."""
         values: np.ndarray = array[np.arange(self.slots), selection]
         return values
 
@@ -100,7 +100,7 @@ class Options:
         return self.unbalance if self.alike is None else self.alike.carried(self.unbalance.T).T
 
     def carried(self, selection: np.ndarray) -> Complex:
-        """Unbalances of all webs (..., W) with options chosen (..., K), kg m."""
+        """Unbalances of all webs (..., W) with a selection of options (..., K), kg m."""
         u = self.of(self.unbalance, selection)
         return u if self.alike is None else self.alike.carried(u)
 

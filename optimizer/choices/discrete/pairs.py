@@ -1,7 +1,7 @@
 """Sums of one half of the slots beside those of the other.
 
-A sum of norms is no less than the Euclidean norm of all, so nothing outside a ball about what has to be cancelled is
-better than the best that is known, and every pair inside it is evaluated.
+A sum of norms is no less than the Euclidean norm of all. So nothing outside a ball about what has to be cancelled is
+better than the incumbent, and every pair inside it is evaluated.
 """
 
 from collections.abc import Callable, Iterator
@@ -101,7 +101,7 @@ class Pairs:
         for share in _SAMPLES:
             if share < 1.0 and share * several < _FEWEST:
                 continue
-            # what is found of a sample is no proof
+            # a sample proves nothing
             whole = self._compared(ball, share, most, share * looks, clock)
             reach = self._radius(ball)
             if reach is not None and share < 1.0 and self.count * ball.share_beside(self.first.size, reach) > looks:
@@ -110,7 +110,7 @@ class Pairs:
 
     def _compared(self, ball: "_Ball", share: float, most: int, looks: float, clock: Clock) -> bool:
         """Whether every pair of a share of the sums that is in the ball was evaluated."""
-        # the compiler is loaded when it is first needed
+        # the compiler is loaded at its first use
         from optimizer.choices.discrete.kernel.near_sums import ALL, gridded, near
 
         count, hits, at_once = share * self.first.size, 0, min(_FIRST, self.at_once)
@@ -178,7 +178,7 @@ class Pairs:
         half = [points(sums.z) for sums in self.first]
         second = [-points(sums.z) for sums in self.second]
         second[0] = second[0] - _real(centre)
-        # the widest first, by which they are told apart best
+        # the widest first: they separate points best
         wide = sum(np.ptp(part, axis=0) for part in (*half, *second))
         order = np.argsort(-wide, kind="stable")
         return _Ball(_Points.of(*(p[:, order] for p in half)), _Points.of(*(p[:, order] for p in second)), unit, beside)

@@ -72,7 +72,7 @@ class PartSizes:
         improve(self.incumbent, self.loose, self._in_use, self.enough, self.clock)
 
     def _climb(self, sizes: Sizes, clock: Clock) -> None:
-        """Move sizes until no move is better. What is known of other sizes ends no climb."""
+        """Move sizes until no move is better. The incumbent of other sizes ends no climb."""
         own = Incumbent(self.incumbent.statement, self.incumbent.options, self.incumbent.resolution)
         own.offer(np.zeros((1, own.options.slots), int))
         self.better, self.climb = Nearer(self.incumbent if own.selection is None else own, clock), clock
@@ -98,7 +98,7 @@ class PartSizes:
         return self.enough() or self.climb.spent()
 
     def _move(self, main: Sizes, small: int, trims: int, sums: int) -> tuple[Sizes, int] | None:
-        """Sizes of which one is some steps up or down, with which a better set was found; None where there are none."""
+        """Sizes after some steps up or down of one, if these hold a better set; None otherwise."""
         for step in _STEPS:
             for n in range(len(main) + 1):
                 sizes = main if n == len(main) else (*main[:n], main[n] + step, *main[n + 1 :])

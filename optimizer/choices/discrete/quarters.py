@@ -1,6 +1,6 @@
 """Sums of four quarters of the slots that all but cancel, where the options come as close as one likes.
 
-Where their hull reaches what no mass can undercut, no tree proves more: what is left is to find sums that come near to
+Where their hull reaches what no mass can undercut, no tree proves more. The search is then for sums that come near to
 a point, among more sets than two halves hold (:mod:`optimizer.numerics.four_lists`).
 """
 
@@ -16,7 +16,7 @@ from optimizer.numerics.four_lists import nearest_sums
 
 #: sums of a quarter, and quarters that are dealt out in a row without finding a better set
 _SUMS, _PATIENCE = 400_000, 20
-#: coordinates, each of two numbers, from which on what is near to a point is no quicker found than looked at
+#: coordinates, each of two numbers, from which on a search near a point is no faster than a look at all
 _MANY = 5
 #: slots with a choice from which on quarters hold more than neighbourhoods do
 _FEWEST = 12

@@ -1,4 +1,4 @@
-"""What the batch kernel is given in place of options: discs, segments and sectors about those that are left."""
+"""Options as the batch kernel takes them: discs, segments and sectors about those that are left."""
 
 from dataclasses import replace
 from typing import NamedTuple
@@ -12,16 +12,16 @@ from optimizer.program.limits import Limits
 from optimizer.program.methods.compiled import suits_kernel
 from optimizer.program.statement import Statement
 
-#: share of its size that a relaxed slot without room is given, which the kernel needs
+#: share of its size for a relaxed slot without room: the kernel takes no limit of 0
 _SPECK = 1e-9
 
 
 def apart(statement: Statement, options: Options) -> tuple[Statement, Options, np.ndarray]:
     """A program that the kernel takes and the options of its unknowns, and the slot of each unknown.
 
-    An unknown is what the webs of a slot carry together where the kernel takes that. Where it does not, because cranks
-    are in several planes or a web has a mirror image, it is a web: what is proven knows that webs are alike all the
-    same (``bound.py``).
+    An unknown is what the webs of a slot carry together where the kernel takes that. It does not where cranks are in
+    several planes or a web has a mirror image; there an unknown is a web. The proof knows all the same that webs are
+    equal (``bound.py``).
     """
     alike, slots = options.alike, np.arange(options.slots)
     if alike is None:

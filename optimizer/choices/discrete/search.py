@@ -22,11 +22,11 @@ EXHAUSTED = "exhaustion in halves"
 TREE = "branch and bound"
 #: sums of a half, and pairs of them, that are searched outright
 _SUMS, _PAIRS = 20_000_000, 3_000_000
-#: sums of a half where they have so many coordinates that what is near is hardly found any quicker than by looking
+#: sums of a half where a search near a point of so many coordinates is no faster than a look at all
 _FEW_SUMS, _COORDINATES = 10_000, 4
 #: share of the time for light sets near the optimum of any masses; where part numbers are few no tree closes soon
 _LIGHT, _LIGHT_OF_PARTS = 0.4, 0.7
-#: share of the time for lighter sets that are as good as asked; of few part numbers many sizes are tried
+#: share of the time for lighter sets within the target gap; of few part numbers many sizes are tried
 _LIGHTER, _LIGHTER_OF_PARTS = 0.1, 0.3
 #: how long neighbourhoods are tried before a tree, and the nodes of that, whose roundings are better sooner
 _SEARCHES = ((0, 1), (0, 1_200.0), (6, np.inf))
@@ -54,7 +54,7 @@ def search(
 ) -> tuple[np.ndarray, SearchResult]:
     """The set of options (K,) with the smallest objective, of equals the lightest, and what is proven of all.
 
-    Where none that keeps the ceilings is found, it is the one closest to them. What is found depends on the clock only
+    Where the search has none that keeps the ceilings, it is the one closest to them. The clock decides the result only
     where the time ends it.
 
     Parameters
@@ -62,7 +62,7 @@ def search(
     statement : one program (no leading axes), whose limits hold every option.
     relaxed : (W,) kg m, its optimum without options.
     at_least : lower bound of that optimum.
-    relative_gap : asked gap, in units of the yardstick; one of EQUAL or less compares all equals as well.
+    relative_gap : target gap, in units of the yardstick; one of EQUAL or less compares all equals as well.
     prior : sets to begin with, and what a tree is of.
     """
     clock, half = Clock(time_limit_s), Clock(0.5 * time_limit_s)
@@ -109,7 +109,7 @@ def search(
             break
     result = SearchResult(True, bound, nodes, TREE, closed and gap < 0, None if closed else tree.ended)
     if closed and gap > 0 and prior.below is None:
-        # all within the asked gap are as good, and what is light is cheap
+        # all within the target gap are as good, and a lighter one is cheaper
         share = _LIGHTER_OF_PARTS if options.limits_parts else _LIGHTER
         light = Clock(min(clock.left_s, share * time_limit_s))
         return lightest_near(incumbent, _selection(incumbent), (bound, bound + gap), light, sizes), result

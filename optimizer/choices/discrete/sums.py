@@ -15,7 +15,7 @@ _SAME = 1e-12
 _ODD = np.uint64(0x9E3779B97F4A7C15)
 #: a list without the mass as a limit is this many times shorter, at most, for equal sums that are one
 SHORTER = 4.0
-#: how many times more sums than wanted are made on the way, most of them too heavy
+#: size of intermediate lists as a multiple of the last one; most of their sums are too heavy
 _WIDEST = 40
 
 

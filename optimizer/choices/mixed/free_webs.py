@@ -18,7 +18,7 @@ from optimizer.numerics.records import record
 from optimizer.program.limits import Limits
 from optimizer.program.statement import Statement
 
-#: share of the largest that a web or a budget without room is given, which the kernel needs; and where none has any, kg
+#: share of the largest mass for a web or a budget without room, as the kernel takes no 0; and where none has any, kg
 _SPECK, _NOTHING = 1e-9, 1e-9
 #: an optimum may be so far above the smallest objective
 _SHARE = 1e-9
@@ -86,7 +86,7 @@ class FreeWebs:
 
     @property
     def _speck(self) -> float:
-        """What a web or a budget without room is given, kg."""
+        """Mass of a web or a budget without room, kg."""
         return _SPECK * float(np.max(self.limits.max_mass)) or _NOTHING
 
     def best(self, programs: Statement, below: float, clock: Clock) -> Complex:

@@ -21,7 +21,7 @@ from optimizer.numerics.arrays import Complex
 from optimizer.program.ceilings import CEILING_TOLERANCE
 from optimizer.program.statement import Statement
 
-#: times that the options are chosen beside the other webs as they are, and these beside the options
+#: rounds of two steps: options beside the other webs as they are, then these webs beside the options
 _TURNS = 8
 #: neighbourhoods in a row for every slot without a better set, and the share of the time for them
 _PATIENCE, _ALTERNATING = 2, 0.3
@@ -30,7 +30,7 @@ _LIGHTER, _LIGHTENING = 200, 0.1
 
 
 class MixedChoice(NamedTuple):
-    """What is chosen."""
+    """Options on some webs, unbalances of all, and the proof."""
 
     selection: np.ndarray  # (K,) options
     beside: Complex  # (S,) kg m, of the other webs
@@ -47,12 +47,12 @@ def search(
     below: Statement | None = None,
 ) -> MixedChoice:
     """The choice with the smallest objective, of equals a light one, and what is proven of all. Where none that keeps
-    the ceilings is found, it is the one closest to them.
+    the ceilings is reached, it is the one closest to them.
 
     Parameters
     ----------
     statement : one program (no leading axes), the webs of the slots before the others.
-    points : (M, W + S) kg m, its optimum of any masses, then choices that are known.
+    points : (M, W + S) kg m, its optimum of any masses, then earlier choices.
     at_least : lower bound of that optimum.
     below : nowhere above the statement and with no tighter ceilings, which bounds are of; by default that one.
     """
@@ -143,7 +143,7 @@ def _alternate(incumbent: MixedIncumbent, relaxed: Complex, clock: Clock, enough
 def _lightened(
     incumbent: MixedIncumbent, limit: float, share: float, clock: Clock, result: SearchResult
 ) -> MixedChoice:
-    """The best choice, and as long as one is there a lighter one that differs on one slot, no worse than a limit; then
+    """The best choice, and as long as one is there a lighter one that differs on one slot, no worse than a limit. Then
     the lightest of the other webs, worse by a share at most."""
     selection, beside, free_webs = incumbent.selection, incumbent.beside, incumbent.free_webs
     assert selection is not None  # there is a choice

@@ -22,7 +22,7 @@ from optimizer.program.certificate import Multipliers, objective_lower_bound
 from optimizer.program.limits import OF_WEBS, Limits
 from optimizer.program.statement import Statement
 
-#: share of the largest unbalance that a web without room is given, which the kernel needs
+#: share of the largest unbalance for a web without room: the kernel takes no limit of 0
 _SPECK = 1e-9
 #: an optimum may be so far above the smallest objective
 _SHARE = 1e-9

@@ -1,7 +1,6 @@
 """Counterweights that are at least so heavy, or not there: the smallest objective, with a bound.
 
 Knows statements and unbalances, and no machines. The way in is :func:`optimizer.choices.semicontinuous.search.search`.
-What a
-node of the tree leaves every web stands in ``places.py``, what multipliers prove of it in ``bound.py``, and how points
-that keep everything are found in ``inside.py`` (docs/mathematics.md section 20).
+``places.py`` says what a node of the tree leaves every web, ``bound.py`` what multipliers prove of it, and
+``inside.py`` searches points that keep all limits (docs/mathematics.md section 20).
 """

@@ -1,6 +1,6 @@
 """Points that keep everything: with a choice of the webs on which something is fitted, better step by step.
 
-What lies beyond the tangent to the least at a direction is convex and keeps it, and so is a disc about the point where
+The half plane beyond the tangent to the least at a direction is convex and keeps it. So is a disc about the point where
 they touch that stays within the largest. The best point of these is the next one, and the next tangent is at its
 direction: no step is worse than the one before.
 """
@@ -16,7 +16,7 @@ from optimizer.numerics.arrays import Complex, Real
 from optimizer.program.limits import Limits
 from optimizer.program.statement import Statement
 
-#: share of its size that a web without room is given, which the kernel needs
+#: share of its size for a web without room: the kernel takes no limit of 0
 SPECK = 1e-9
 #: tangents that are tried one after the other, for the objective and for the mass
 _TANGENTS, _LIGHTER = 5, 25
@@ -72,7 +72,7 @@ def improved(incumbent: BestPoint, u: Complex, fitted: np.ndarray, clock: Clock)
     Parameters
     ----------
     fitted : (M, K) bool, on which of the webs with a least; nothing is on the others that have one.
-    clock : what is left of the time, after which those that are found are offered.
+    clock : what is left of the time; at its end the points so far are offered.
     """
     before = np.full(len(u), np.inf)
     for _ in range(_TANGENTS):

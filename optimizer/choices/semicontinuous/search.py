@@ -39,7 +39,7 @@ def search(
     below: Statement | None = None,
 ) -> tuple[Complex, SearchResult]:
     """The counterweights (K,) kg m with the smallest objective, of those with the same webs the lightest; what is
-    proven of all. Where none that keep the ceilings are found, those closest to them.
+    proven of all. If none keep the ceilings, those closest to them.
 
     Parameters
     ----------

@@ -24,7 +24,7 @@ _BATCH, _TRIED, _OPEN = 64, 4, 200_000
 _SAG = 30.0
 #: a piece this narrow is not cut, rad; and the share of the least by which a point may miss it
 _NARROW, _MISSES = 1e-9, 1e-9
-#: a gap that the kernel is asked for at least, where none is
+#: smallest target gap for the kernel, also where the search has none
 _CLOSE = 1e-9
 
 
@@ -48,7 +48,7 @@ def branch(
 
     Parameters
     ----------
-    at_least : what the objective is known to come to.
+    at_least : lower bound of the objective.
     enough : whether a bound of everything ends the search.
     clock : what is left of the time.
     below : a program that is nowhere above the incumbent's, which bounds are of.

@@ -86,7 +86,7 @@ class Cylinders:
 
 @record(frozen=True)
 class Planes:
-    """Plane faces: a point and the unit normal out of the material (n, 3), area (n,), NaN where it is not known."""
+    """Plane faces: a point and the unit normal out of the material (n, 3), area (n,), NaN where it is undetermined."""
 
     number: Numbers
     point: Real

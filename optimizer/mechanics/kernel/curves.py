@@ -160,7 +160,7 @@ def _add(weight, numbers, cut, total):  # type: ignore[no-untyped-def]
 
 @inner
 def _add_components(weight, first, second, cut, along, across):  # type: ignore[no-untyped-def]
-    """The same of vectors of which both parts are given."""
+    """The same of vectors with both of their parts."""
     if cut == first.size:
         _add_vectors(weight, first, second, along, across)
         return

@@ -84,7 +84,7 @@ def cycle_pressures(angle, displacement, remaining, rows, chambers, pressure):  
                 for t in range(count):
                     pressure[r, c, t] = low
                 continue
-            # where suction and discharge last, no power is needed to see it
+            # a comparison shows where suction and discharge last, without a power
             least = (low / high) ** (1.0 / expansion) * (1.0 - _BEYOND)
             most = (high / low) ** (1.0 / compression) * (1.0 + _BEYOND)
             for t in range(count):

@@ -9,7 +9,7 @@ from optimizer.mechanics.kernel.row_numbers import COS, FUNCTIONS, INERTIA, OUTW
 from optimizer.mechanics.kernel.taylor import ALL, LANES, Series, any_of, constant, copied, multiplied, scaled
 from optimizer.numerics.compiling import inner, inner_with_arrays
 
-#: what may be asked of the rows; the first column counts from 0 in the compiled code
+#: readings of the rows; the first column counts from 0 in the compiled code
 READINGS = (
     "piston",
     "rod",
@@ -179,7 +179,7 @@ def _of_designs(values, own, r, column, alone, out):  # type: ignore[no-untyped-
 
 @inner
 def _together(value, off, results, there, part, lanes):  # type: ignore[no-untyped-def]
-    """Write lanes to angles side by side, and how far they may be off where that is known."""
+    """Write lanes to angles side by side, with their error bounds if there are any."""
     (middle, radius), (n, r, at) = results, there
     out = middle[n, r, at:]
     for p in range(lanes):
@@ -209,7 +209,7 @@ def _with_part(first, off, part):  # type: ignore[no-untyped-def]
 
 @inner
 def _add_multiple(function, factor, total, bounded, first):  # type: ignore[no-untyped-def]
-    """Add a function times a factor (LANES,) to another, from the first coefficient that is wanted."""
+    """Add a function times a factor (LANES,) to another, from coefficient ``first`` on."""
     (middle, radius), (out, out_off) = function, total
     for k in range(first, out.shape[0]):
         addend, result = middle[k], out[k]

@@ -1,4 +1,4 @@
-"""Numbers of what is known of a row: of functions, of its cranks, and of every lane."""
+"""Column numbers of a row's data: of functions, of its cranks, and of every lane."""
 
 import numpy as np
 

@@ -66,7 +66,7 @@ class Rows(NamedTuple):
         volumes over crank radius times area at which suction and discharge open, whether it is closed.
     trace : (R, C) which of the traces gives the pressure of a chamber, or -1.
     exact : kinematics, or cut off after the second order.
-    traces : the pressures that are given.
+    traces : the tables of pressures.
     """
 
     motion: Real
@@ -141,7 +141,7 @@ def _expand(rows, places, mask, alike, series, room, functions):  # type: ignore
     Parameters
     ----------
     alike : (R,) of each row the first that moves as it does.
-    room : what is known of lanes for the time being.
+    room : work arrays of the lanes.
     """
     middle, radius, way = functions
     cranks, lane, process, trig, repeats = room

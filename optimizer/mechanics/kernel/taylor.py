@@ -17,14 +17,14 @@ import numpy as np
 from optimizer.numerics.arrays import Real
 from optimizer.numerics.compiling import inner
 
-#: places side by side: what is known of them fits the cache
+#: places side by side: their data fit the cache
 LANES = 32
-#: the first coefficient, where all are wanted
+#: the first coefficient, for all of them
 ALL = np.int64(0)
 
 
 class Series(NamedTuple):
-    """Some functions, each known by its number.
+    """Some functions, each with a number.
 
     middle : (functions, n + 1, LANES) the coefficients, or the middles of their enclosures. Where powers are made the
         last of them is none, but room.
@@ -121,7 +121,7 @@ def summed(series, a, b, factor, out):  # type: ignore[no-untyped-def]
 
 @inner
 def product(series, a, b, out, first):  # type: ignore[no-untyped-def]
-    """a b, from the first coefficient that is wanted; neither may be what comes out."""
+    """a b, from coefficient ``first`` on; neither may be ``out``."""
     middle, radius, bounded = series
     multiplied((middle[a], radius[a]), (middle[b], radius[b]), (middle[out], radius[out]), bounded, first)
 

@@ -1,4 +1,4 @@
-"""The smallest circle around points, compiled: :mod:`optimizer.numerics.enclosing_circle` says how it is found."""
+"""The smallest circle around points, compiled: :mod:`optimizer.numerics.enclosing_circle` has the method."""
 
 import numpy as np
 

@@ -1,6 +1,6 @@
 """Columns in detail, by output; names, units and meanings are declared in :mod:`schemas.sweep.details`.
 
-What a single answer has of every bearing, row and load case, worked out in a sweep only where it is asked for.
+A single answer has these figures of every bearing, row and load case; a sweep computes only the columns in its list.
 """
 
 from optimizer.outputs.details.bearings import BEARINGS

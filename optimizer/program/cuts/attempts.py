@@ -1,4 +1,4 @@
-"""How one program of a stage by cuts is solved, and what is tried where that leaves more open than asked."""
+"""Settings of clarabel for one program of a stage by cuts, in order: the next is tried where the gap stays open."""
 
 from typing import NamedTuple
 

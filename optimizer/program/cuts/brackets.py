@@ -18,7 +18,7 @@ _NEAR = 1e-9
 
 
 class Brackets:
-    """Brackets of quantities; those of the last unbalances are known, and tell of what is near them.
+    """Brackets of quantities. Brackets at recent unbalances are kept, and bound the quantities near them.
 
     Where counterweights differ by du, a quantity differs by no more than sum |H_k du_k|, and what scatters with them.
     """
@@ -57,7 +57,7 @@ class Brackets:
                 }
         missing = [q for q in numbers if q not in results]
         if missing:
-            # half, so that rounding and what is near leave them as narrow as asked
+            # half the tolerance: rounding and reuse for near unbalances then leave brackets within it
             new = dict(zip(missing, self._evaluations(u, 0.5 * tolerance, missing), strict=True))
             self._recent = [*self._recent[1 - _REMEMBERED :], (u, new)]
             results |= new

@@ -1,4 +1,4 @@
-"""Quantities over the whole turn that are the largest of infinitely many norms, each known by cuts.
+"""Quantities over a revolution: each is the largest of infinitely many norms, of which the program holds cuts.
 
 A cut is one of these norms, floor + |c + H u|, so that no u makes the quantity smaller: a row of a statement. The
 peak of |d(theta) + H u| over the turn has a cut at every angle; the root mean square sqrt(V + |mean d + H u|^2) one for
@@ -72,7 +72,7 @@ class Quantity:
 
     response: TurnResponse
     measure: Literal["peak", "rms"] = "peak"
-    scenario: str | None = None  # whose response it is; None is the machine as it is given
+    scenario: str | None = None  # whose response it is; None is the unchanged machine
     masses: float = 0.0  # share by which the mass of every row may be off
 
     @property
@@ -120,7 +120,7 @@ class Quantity:
     def rms(self, u: Complex, scatter: Scatter) -> Evaluation:
         """The root mean square: with the angle of the vector (|mean + H u|, sqrt(V)) its cut is it.
 
-        Both are off by no more than is known of mean and variance.
+        Both errors are within those of mean and variance.
         """
         mean, influence = self.response.mean, self.response.influence
         along_mean = abs(mean + self.response.offset(u)) + scatter.of(influence, u)
@@ -132,7 +132,7 @@ class Quantity:
 
 
 class Pool:
-    """The cuts that are known of every quantity."""
+    """The cuts of every quantity so far."""
 
     def __init__(self, first: Sequence[Sequence[Cut]], scatter: Scatter) -> None:
         self.cuts = [list(cuts) for cuts in first]

@@ -65,7 +65,7 @@ class EmptyWebs:
         return dust(np.abs(point.unbalance) / self.program.limits.radius)
 
     def _without(self, empty: np.ndarray, point: Point) -> Point | None:
-        """An optimum that needs none of these webs (K,) bool, None where none is found."""
+        """An optimum that needs none of these webs (K,) bool; None if the search finds none."""
         limits = self.program.limits
         bare = self.program.changed(limits=replace(limits, max_mass=np.where(empty, 0.0, limits.max_mass)))
         u = np.where(empty, 0.0, point.unbalance)

@@ -21,7 +21,7 @@ def under_levels(statement: Statement, program: Problem, most: Real, least: floa
     ----------
     statement : of the program with some cuts.
     most : levels of all goals but the last.
-    least : what the last goal is known to come to at least under them. Of more than that it is nowhere below the last
+    least : lower bound of the last goal under them. Of more than that it is nowhere below the last
         goal all the same, and what makes it small keeps the levels where it comes to no more.
     steep : price of the goals before, each by what it is measured by, in units of the last one.
     """

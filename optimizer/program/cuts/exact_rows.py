@@ -1,4 +1,4 @@
-"""Rows of goals that are known in closed form, all at once: an unbalance is evaluated by them many times."""
+"""Rows of goals in closed form, all at once: searches evaluate an unbalance by them many times."""
 
 from collections.abc import Sequence
 

@@ -1,7 +1,7 @@
 """What a goal over the turn comes to at worst where counterweights are not quite what they should be.
 
-As in :mod:`optimizer.program.misplacement`. A peak over the turn is convex in what the counterweights add to its curve,
-so that the worst of all that they may add is at one of finitely many corners, each with a bracket of its own.
+As in :mod:`optimizer.program.misplacement`. A peak over the turn is convex in what the counterweights add to its curve.
+So the worst of all additions is at one of finitely many corners, each with a bracket of its own.
 """
 
 from collections.abc import Callable, Iterator, Sequence

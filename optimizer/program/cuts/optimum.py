@@ -22,7 +22,7 @@ from optimizer.program.solution import CEILING_ROUNDING, OPTIMUM_SHARE
 from optimizer.program.statement import Statement
 
 METHOD = "cuts, clarabel"
-#: of a search whose time limit nobody has asked for
+#: of a search without a time limit in the request
 TIME_LIMIT_S = 5.0
 
 #: room below the ceilings, as a share of their size, that lets them be kept as they are
@@ -31,10 +31,10 @@ _AMPLE = 1e-8
 _ROOMY = 1e-3
 #: gap of the smallest excess that is good enough
 _PRINTED = 1e-12
-#: the smallest objective is sought this much more sharply than optima are told apart, where another stage follows;
+#: the smallest objective is sought this much more sharply than the tolerance between optima, before another stage;
 #: the second where the mass is so steep that the first leaves it open
 _SHARPNESS = (1e-2, 1e-4)
-#: and this share of the asked gap where none does
+#: share of the target gap that the last stage aims at
 _ENOUGH = 0.5
 #: share of what optima may differ by that is kept for the figures of the answer
 _RESERVE = 5e-3
@@ -104,7 +104,7 @@ class CertifiedOptimum:
         goals = tuple(goal._replace(proof=goal.proof.within(limits)) for goal in self.goals)
         of_mass = self.mass_proof
         if of_mass is not None:
-            # one statement stays one: both bounds are told of it at once
+            # one statement stays one: both bounds refer to it
             same = of_mass.statement is self.proof.statement
             of_mass = of_mass.within(limits)
             of_mass = replace(of_mass, statement=goals[-1].proof.statement) if same else of_mass
@@ -134,7 +134,7 @@ class Conflict:
         Raises
         ------
         ArithmeticError
-            whatever it is: the proof contradicts what is known.
+            in all cases: the proof contradicts the point.
         """
         raise ArithmeticError(f"an excess of {self.proof.bound:g} is proven where the ceilings are kept")
 
@@ -149,7 +149,7 @@ def over_turn(
 
     Parameters
     ----------
-    relative_gap : asked gap of the last goal, relative to its yardstick.
+    relative_gap : target gap of the last goal, relative to its yardstick.
     least_mass : take the least total mass among the optima.
     time_limit_s : of this thread's own time, after which the search ends with what it has: what else a machine does
         changes no answer.
@@ -185,7 +185,7 @@ def over_turn(
         attempts.append(course.optimum(mass_proof, target))
         if attempts[-1].mass_gap <= _LIGHT or course.timed_out or allowed > share:
             break
-    # what is sought more sharply may be found less so
+    # a sharper target can end in a wider gap
     best = min(attempts, key=lambda optimum: optimum.mass_gap)
     return replace(best, rounds=course.rounds, certify_s=course.certify_s, timed_out=course.timed_out)
 
@@ -193,7 +193,7 @@ def over_turn(
 def next_goal(
     program: Problem, before: Sequence[GoalLevel], u: Complex, relative_gap: float, time_limit_s: float
 ) -> CertifiedOptimum:
-    """Certified optimum of the last goal of a program under levels of the others that are given.
+    """Certified optimum of the last goal of a program under levels of the goals before it.
 
     Parameters
     ----------
@@ -211,7 +211,7 @@ def next_goal(
 
 
 class _Course:
-    """Stages one after the other, each with what is known already."""
+    """Stages one after the other; each starts from the results of those before."""
 
     def __init__(
         self, program: Problem, pool: Pool, nearest: StageEnd, raised: bool, contradicted: bool, until: float
@@ -340,7 +340,7 @@ def semicontinuous_limits(program: Problem, least: Real, most: Real) -> Limits:
     Parameters
     ----------
     least : (K,) kg, of what is fitted; 0 where there is none.
-    most : (goals,) what the goals of some choice that keeps the ceilings come to; inf where none is known.
+    most : (goals,) values of the goals at some choice that keeps the ceilings; inf without such a choice.
     """
     statement = _telling(program)
     return within_semicontinuous_reach(statement, least, _level(program, most)).limits

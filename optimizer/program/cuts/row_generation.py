@@ -64,8 +64,8 @@ def single_group(
 
 
 def _unlike(statement: Statement, rows: np.ndarray) -> np.ndarray:
-    """Rows of a group without those that are nothing but a floor as high as that of another: of a response that neither
-    is there nor changes each cut is one, and its sums with others are the same."""
+    """Rows of a group without those that are nothing but a floor as high as that of another. A response that neither
+    is there nor changes has one such row for each cut, and its sums with others are the same."""
     norms = statement.norms
     something = (norms.constant != 0) | np.any(norms.influence != 0, axis=-1)
     bare = rows[~np.isin(rows, statement.row[something])]

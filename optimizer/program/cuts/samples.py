@@ -2,7 +2,7 @@
 
 Every piece is looked at in a few places by its cubic, which costs next to nothing, and where that leaves out much by
 the curve itself. Where a quantity may be largest, at the vertex of parabolas through three places, the curve is
-evaluated at any rate: so what is told there is true.
+evaluated in any case: so every sample is a true value.
 
 Shapes: Q curves of one source, P pieces, S places in each.
 """
@@ -29,11 +29,11 @@ _TO_POLYNOMIAL = np.linalg.inv(_POWERS)
 _STEEP = 1e-6
 _BETWEEN = float(_PLACES[1] - _PLACES[0])
 _BESIDE = np.arange(-1, 2)
-#: distance of places, as a share of that, by which a vertex is found more closely
+#: distance of places, as a share of that, for the second search about a vertex
 _CLOSER = 0.0625
 #: share of what is added up at which it has cancelled
 _DUST = 1e-13
-#: local maxima of a curve that are told at most
+#: largest number of local maxima that a curve returns
 _MOST = 4
 #: share by which a curve may be above what its cubic shows
 _ABOUT = 1e-3

@@ -1,4 +1,4 @@
-"""The problem: goals in order under ceilings and limits, with quantities that are known by cuts where there are any.
+"""The problem: goals in order under ceilings and limits, with quantities by cuts where there are any.
 
 Such are bearing peaks beside force and moment, and root mean squares. :attr:`Problem.finite` has finitely many norms.
 
@@ -36,9 +36,9 @@ from optimizer.program.statement import Names, Statement
 from optimizer.program.verdict import yardstick
 from optimizer.responses.response import Response
 
-#: relative width of the brackets by which quantities are known without counterweights
+#: relative width of the brackets of quantities without counterweights
 _FINE = 1e-12
-#: what is known of the quantities alone
+#: attributes that depend on the quantities alone
 _OF_QUANTITIES = ("samples", "brackets", "first", "_resting")
 #: what is smaller is nothing
 _TINY = 1e-300
@@ -61,7 +61,7 @@ class Goal(NamedTuple):
 
 
 class Values(NamedTuple):
-    """What an unbalance comes to; of what is known by brackets the upper figure."""
+    """Goals and excesses at an unbalance; where brackets give them, their upper ends."""
 
     goals: Real  # (goals,)
     over: Real  # (ceilings and limited,) excess over each ceiling, relative to its size
@@ -83,8 +83,8 @@ class Problem:
 
     goals : in the order of their priority, at least one.
     ceilings, limited : responses with the largest peak allowed, and quantities, by their place, with the largest value.
-    plates : webs whose mass is no multiple of their unbalance; their radius in the limits is that of a first gram, so
-        that all that is proven with it is true of what is heavier.
+    plates : webs whose mass is no multiple of their unbalance. Their radius in the limits is that of a first gram, so
+        that every proof with it holds for heavier plates.
     """
 
     quantities: tuple[Quantity, ...]
@@ -94,7 +94,7 @@ class Problem:
     limits: Limits
     scatter: Scatter = EXACT
     plates: Plates | None = None
-    symmetric: bool = False  # of optima those are wanted that are alike where the problem is
+    symmetric: bool = False  # prefer the optimum with the symmetry of the problem
 
     def mass(self, u: Complex) -> float:
         """What an unbalance (K,) weighs, kg."""
@@ -138,7 +138,7 @@ class Problem:
         return np.maximum.reduceat(sums, np.searchsorted(self.goal_of_case, np.arange(len(self.goals))))
 
     def changed(self, **fields: Any) -> "Problem":
-        """The program with other goals, ceilings or limits, and what is known of its quantities."""
+        """The program with other goals, ceilings or limits; results that depend on the quantities alone stay."""
         if all(getattr(self, name) is value for name, value in fields.items()):
             return self
         result = replace(self, **fields)
@@ -323,7 +323,7 @@ class Problem:
         return widths
 
     def _decided(self, u: Complex, tolerance: Real, reached: tuple[Evaluation, ...], coarse: np.ndarray) -> Values:
-        """What an unbalance comes to, by brackets of which those that are coarse (quantities,) are told again to a
+        """Goals and excesses at an unbalance. Brackets that are coarse (quantities,) are computed again, to a
         tolerance (quantities,) where they may decide something."""
         may = deciding(self.groups, reached)
         may[[q for q, _ in self.limited]] = True

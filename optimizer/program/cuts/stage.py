@@ -2,7 +2,7 @@
 
 Finitely many cuts of every quantity make a statement that clarabel solves as matrices. Its multipliers prove a lower
 bound for all angles, since no u makes a quantity smaller than its cuts; the upper figure comes from brackets of the
-true peaks. Where the two are apart the cuts that the brackets found are added, and slack ones let go. So the certified
+true peaks. Where the two differ, the cuts at the brackets' peaks are added, and slack ones removed. So the certified
 gap tells when to stop, and not the solver.
 """
 
@@ -36,7 +36,7 @@ _LAST_S = 1e-2
 _COARSE = 1e-4
 #: share of a gap from which on it is the solver that leaves it open
 _LOST = 0.5
-#: share of the gap asked for that brackets may leave open
+#: share of the target gap that brackets may leave open
 _OPEN = 0.1
 #: by this share of their size ceilings are lowered, so that the answer keeps them; raised on the edge of what can be
 _LOWERED, _RAISED = 2e-10, CEILING_TOLERANCE - 2e-10
@@ -120,7 +120,7 @@ class Search:
         self.certify_s = 0.0
         self.margin = levels.margin  # that is aimed at, no more than what is small can bear
         self.price = np.zeros(levels.margin.size)  # of what is kept, in units of what is small
-        self.aimed = levels.most  # levels that the solver was last asked to keep
+        self.aimed = levels.most  # levels of the last program for the solver
         self.missed = np.zeros(levels.most.size)  # by what its points were above them
         self.about: Real | None = None  # variables of the last program
         self.near: Point | None = None  # the last one that kept all
@@ -132,13 +132,13 @@ class Search:
         Parameters
         ----------
         enough : gap that ends the search, in the goal's unit; of a mass relative to it.
-        stop : whether a value and its bound are all that has to be known.
+        stop : whether a value and its bound are enough to end the search.
         """
         statement = self._statement()
         best, proof = self.inside, self._closed(None, statement)
         attempts, gap = list(FREELY if self.free else WITHIN), np.inf
         rounds, timed_out = 0, False
-        # the best that no brackets were asked for: rounds that follow may wander off where optima are many
+        # the best sample without brackets: rounds that follow may wander off where optima are many
         promised = none = _Promise(np.inf, best.unbalance)
         while attempts and rounds < _MOST_ROUNDS and not self._late():
             rounds += 1
@@ -152,7 +152,7 @@ class Search:
             self._spare(enough * (best.mass if self.of_mass else 1.0))
             bound = -np.inf if proof is None else proof.bound
             matters, mass = self._matters(statement, u), self._mass(u)
-            # what is seen at some angles is no more than the truth: while that is too much no bracket is needed
+            # samples never exceed the true value: while they are above the level no bracket is computed
             lower_values, places = self.program.sample_values(u, matters)
             figure = self._promise(Point(u, lower_values, mass))
             promised = min(promised, _Promise(figure, u), key=lambda promise: promise.figure)
@@ -211,11 +211,11 @@ class Search:
         return time.thread_time() >= self.until
 
     def _statement(self) -> Statement:
-        """The program with the cuts that are known."""
+        """The program with the cuts so far."""
         return self.program.outer(self.pool.cuts)
 
     def _closed(self, proof: Proof | None, statement: Statement) -> Proof | None:
-        """The better of a proof and of that by the floors of all that is known by now, which needs no solver."""
+        """The better of a proof and of that by the floors of all cuts so far, which takes no solver."""
         if self.of_mass:
             return proof
         began = time.perf_counter()
@@ -224,13 +224,13 @@ class Search:
         return resting if proof is None or resting.bound > proof.bound else proof
 
     def _spare(self, enough: float) -> None:
-        """Keep back no more than costs a share of the gap that is asked for."""
+        """Reduce the margin to one that costs no more than a share of the target gap."""
         least = _LEAST_MARGIN * self.program.units[: self.margin.size]
         worth = np.where(self.price > 0, _OPEN * enough / np.where(self.price > 0, self.price, 1.0), np.inf)
         self.margin = np.minimum(self.levels.margin, np.maximum(worth, least))
 
     def _has_new_cut(self, evaluations: Sequence[Sequence[Evaluation]], u: Complex, matters: Real) -> bool:
-        """Whether a point has shown a cut that was not known, or a plate that is heavier than its tangents."""
+        """Whether a point has added a cut, or holds a plate that is heavier than its tangents."""
         new = self.pool.add(evaluations, u, matters)
         self.pool.forget(u)
         if self.plates is None:
@@ -281,9 +281,9 @@ class Search:
         return point.mass if self.of_mass else float(point.values.goals[-1])
 
     def _width(self, enough: float, gap: float) -> float:
-        """Width of brackets that leaves open a share of what is asked, or of what is still open."""
+        """Width of brackets that leaves open a share of the target gap, or of the gap that is still open."""
         size = self.program.units
-        # what is kept has to be told from what is not
+        # brackets must be narrower than the margin below the levels
         share = float(np.min(self.margin / size[: self.margin.size], initial=np.inf))
         if not self.of_mass:
             share = min(share, max(enough, _OPEN * gap if np.isfinite(gap) else 0.0) / float(size[-1]))

@@ -112,13 +112,13 @@ def minorant(term, row, ceiling, programs, n, cap, normal):  # type: ignore[no-u
                 x, z = x + influence[n, j, k] * y[j].real, z + influence[n, j, k] * y[j].imag
                 large += abs(influence[n, j, k]) * size_of[j]
         slopes[k] = complex(x, z)
-        # how large what was summed is, until it is known whether finer sums are called for
+        # size of the terms of the sum, until a second look decides between them and finer sums
         spread[k] = large
         rounding[k] = _EPS * (_PER_PRODUCT + terms) * large
         off += region.radius[n, k] * min(region.max_mass[n, k], region.budget[n]) * rounding[k]
     dear = off > _DEAR * size
     if dear:
-        # webs that can hardly be told apart, with limits that are far away: what is left of the data, no more
+        # webs of almost equal influence, with limits that are far away: the rest of the data, no more
         for k in range(webs):
             x, x_rest, z, z_rest = 0.0, 0.0, 0.0, 0.0
             for j in range(terms):

@@ -26,7 +26,7 @@ def scales(  # type: ignore[no-untyped-def]
     unit,
     targets,
 ):
-    """How far webs reach, what the objective is measured by, and what is asked of it in that unit, of N programs.
+    """Reach of the webs, unit of the objective, and share and gap in that unit, of N programs.
 
     Parameters
     ----------
@@ -37,7 +37,7 @@ def scales(  # type: ignore[no-untyped-def]
     at_least : (N,) what the objective comes to under the ceilings, or less.
     share : (N,) what optima may differ by.
     sharpness, finest, coarsest : gap of the first stage: as a share of that, and between which ends.
-    reach, unit, targets : (N, K), (N,) and (2, N), what is found: the last are the share and the gap.
+    reach, unit, targets : (N, K), (N,) and (2, N), results: the last are the share and the gap.
     """
     number, terms, webs = influence.shape
     for n in range(number):
@@ -50,7 +50,7 @@ def scales(  # type: ignore[no-untyped-def]
             for k in range(webs):
                 reachable += abs(influence[n, j, k]) * reach[n, k]
         own = rest[n] if rest[n] > 0.0 else reachable if reachable > 0.0 else 1.0
-        # a level far above where the search starts is hardly found
+        # from far below its level the search hardly arrives
         unit[n] = max(own, at_least[n])
         targets[0, n] = share[n] / unit[n]
         targets[1, n] = min(max(sharpness * share[n] / unit[n], finest), coarsest)
@@ -133,7 +133,7 @@ def pairs(influence, basis, multiple, two, holds):  # type: ignore[no-untyped-de
     ----------
     influence : (N, Q, K) of all vectors.
     basis : (Q,) of which response, 0 or 1.
-    multiple, two, holds : (N, Q), (N, 2, K) and (N,) bool, whether the vectors are such multiples: what is found.
+    multiple, two, holds : (N, Q), (N, 2, K) and (N,) bool, results: whether the vectors are such multiples.
     """
     number, vectors, webs = influence.shape
     second_count = 0

@@ -11,7 +11,7 @@ where da_j = f_j (G_b + sum_i N_bb(i) f_i dy_i) is what the webs do. In the seco
 further unknown, in the first that of a budget.
 
 A number of vector j stands at ``NAME + t`` of its row of ``peak``, lane t. Every loop takes the rows that it needs as
-arrays of their own: the compiler would not see that places in one array, known only as it runs, do not overlap.
+arrays of their own: the compiler would not see that places in one array, which vary at run time, do not overlap.
 """
 
 from optimizer.program.kernel.compiling import fused, fused_inlined
@@ -163,7 +163,7 @@ def step_peaks(least_mass, budgeted, terms, basis, peak, own):  # type: ignore[n
 
 @fused
 def correct_peaks(least_mass, budgeted, peak, own):  # type: ignore[no-untyped-def]
-    """Right sides of a step to products ``AIM`` that allows for what the products miss in the direction found last."""
+    """Right sides of a step to products ``AIM``, corrected by the second-order products of the last direction."""
     for j in range(peak.shape[0]):
         vector = peak[j]
         for t in range(LANES):

@@ -105,7 +105,7 @@ def begin_second(programs, n, budgeted, share, gap, end, cost, where):  # type: 
         for k in range(webs):
             if programs.budget[n, k] > 0.0:
                 price = min(price, programs.mass[n, k] / (unit * programs.budget[n, k] * where[at_prices + 1]))
-    # the first stage has found an optimum within the budget, and none that is lighter is beyond it
+    # the first stage ended with an optimum within the budget, and none that is lighter is beyond it
     where[at_prices], where[at_prices + 1] = price, 1.0
     for j in range(vectors):
         at = 6 * webs + 4 * j

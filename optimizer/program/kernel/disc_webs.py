@@ -8,7 +8,7 @@ of that, q = 1 - x and zq = z - price x cost,
 
 which is solved for (dx, dz, dv) by one division: the determinant A zq + D q, A = x z - <v, p>, D = z^2 - |p|^2, has no
 terms of opposite sign. So z dv = y - S dp, S = x + u m' of 2 x 2, with u = (zq v + q p) / (A zq + D q), m = x p - z v.
-Where x is not asked for it stays 1: q = 0, zq = 1.
+Without x in the program it stays 1: q = 0, zq = 1.
 
 At the edges of a sector, with normals n_e, slacks e = <n_e, v> and multipliers g, p = -sum_j h_j w_j - sum_e g n_e. So
 dp = dp_0 + E dv, with E = sum_e (g / e) n_e n_e', and
@@ -335,7 +335,7 @@ def step_webs(sized, webs, web, edge, own):  # type: ignore[no-untyped-def]
 
 @fused
 def correct_webs(sized, webs, web, edge, own):  # type: ignore[no-untyped-def]
-    """Right sides of a step to products ``AIM`` that allows for what the products miss in the direction found last."""
+    """Right sides of a step to products ``AIM``, corrected by the second-order products of the last direction."""
     clear(own, G, DW)
     clear(own, OWN_MASS, BUDGET)
     for k in range(webs):

@@ -68,7 +68,7 @@ from optimizer.program.kernel.stages import BLOCK as AT_A_TIME
 _MOST_STEPS = 25
 #: least share of the way to the boundary that a step goes; the rest is the gap at most
 _STEP, _LONGEST = 0.995, 0.99999
-#: multiples of the gap asked for that are enough where a step led no farther, and where several did not
+#: multiples of the target gap that are enough where a step led no farther, and where several did not
 _NEARLY, _LOOSEST, _LOOSEST_MASS = 8.0, 500.0, 30.0
 #: a step below this is short, and share of the gap that the next one aims at then
 _SHORT, _CAUTIOUS = 0.1, 0.5

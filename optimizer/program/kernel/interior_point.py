@@ -210,7 +210,7 @@ def solve(
     Parameters
     ----------
     programs : Programs.
-    least_mass : whether the second stage is wanted.
+    least_mass : whether the second stage follows.
     share : (N,) how far above the smallest value an optimum may be, in units of the value.
     tolerance : (N,) gap at which the first stage ends.
     mass_tolerance : gap relative to the mass at which the second ends.
@@ -266,7 +266,7 @@ def run(share, mass_tolerance, programs, task, memory, storage, best):  # type: 
 
 @inner
 def _aim(programs, task, share, mass_tolerance):  # type: ignore[no-untyped-def]
-    """What the second stage is asked, from what the first one found."""
+    """Targets of the second stage, from the result of the first."""
     number, cones, webs = programs.influence.shape
     rows, terms = programs.floor.shape[1], programs.row.size
     for n in range(number):

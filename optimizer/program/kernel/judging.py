@@ -13,11 +13,11 @@ from optimizer.program.kernel.values import programs_of, value
 
 #: of what optima may differ by, a gap in which no other proof is worth its time
 _SHARP = 1e-4
-#: of a mass that is told from dust whatever the rounding
+#: of the smallest mass that counts, above all rounding
 _ABOVE = 1.0 + 1e-9
 #: of the proofs, as numpy's integer like all that is handed on
 _FIRST: Any = np.int64(0)
-#: objective, mass, excess, rounding, until they are known
+#: objective, mass, excess, rounding, before their evaluation
 _NONE = 0.0, 0.0, 0.0, 0.0
 
 
@@ -247,7 +247,7 @@ def judge(  # type: ignore[no-untyped-def]
         is_enough = (loose or smallest_figures[0] - lower <= enough * share[n]) and result[2] <= rounding
         heaviest = np.inf
         if least_mass:
-            # what counts as an optimum is told from a point that keeps the ceilings
+            # an optimum must keep the ceilings exactly, not within their tolerance
             is_enough = is_enough and smallest_figures[2] <= rounding
             is_enough = is_enough and result[1] - mass_bound <= mass_enough * result[1]
             heaviest = mass_bound / (1.0 - heavier)

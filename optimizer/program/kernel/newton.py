@@ -177,7 +177,7 @@ def first_order(work):  # type: ignore[no-untyped-def]
 
 @inner
 def second_order(share, work):  # type: ignore[no-untyped-def]
-    """What the products miss in the direction found last where ``share`` (L,) is 1; nothing where it is 0."""
+    """Second-order products of the last direction where ``share`` (L,) is 1; nothing where it is 0."""
     spread(share, work.per_cone)
     corrector(work.per_cone, work.w, work.eta, work.ds, work.dz, work.d)
     for c in range(3):

@@ -78,7 +78,7 @@ def restart(batch, state, t):  # type: ignore[no-untyped-def]
     # the rest of what mass costs is what webs that carry nothing pay
     for k in range(t, batch.sine.size, lanes):
         z[0, k] += max(batch.mass[k] - price * batch.budget[k] * state.rest[1, t], 0.0)
-    # the first stage has found an optimum within the budget, and none that is lighter is beyond it
+    # the first stage ended with an optimum within the budget, and none that is lighter is beyond it
     state.rest[0, t], state.rest[1, t] = 1.0, centrality * price
     for k in range(t, batch.budget.size, lanes):
         batch.budget[k] = 0.0

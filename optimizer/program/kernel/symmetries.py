@@ -18,7 +18,7 @@ _ROUNDING = 32 * float(np.finfo(float).eps)
 
 
 class Alike(NamedTuple):
-    """Limits of N programs by which webs are told apart, as in :class:`optimizer.program.limits.Limits`."""
+    """Limits of N programs that distinguish webs, as in :class:`optimizer.program.limits.Limits`."""
 
     radius: Real  # (N, K)
     max_mass: Real  # (N, K)
@@ -68,7 +68,7 @@ def means(  # type: ignore[no-untyped-def]
         ones[q] = 1.0
     for n in range(number):
         _scaled(influence[n], relative, level)
-        # most programs have hardly any, which is told at little cost
+        # most programs have hardly any symmetry, and this check is cheap
         _in_line(relative, level, order, along)
         straight, reversal = (1, 1), (0, 0)
         if not _apart(along):
@@ -157,7 +157,7 @@ def _in_line(relative, level, order, along):  # type: ignore[no-untyped-def]
 
     Parameters
     ----------
-    order, along : (K,) webs, and these influences, to be written to; all 0 where no web is told from another.
+    order, along : (K,) webs, and these influences, to be written to; all 0 if webs are indistinguishable.
     """
     terms, webs = relative.shape
     by = -1

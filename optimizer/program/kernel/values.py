@@ -1,4 +1,4 @@
-"""What points come to, compiled: :meth:`optimizer.program.statement.Statement.objective` and what is asked beside it.
+"""Values of points, compiled: :meth:`optimizer.program.statement.Statement.objective` and figures beside it.
 
 Programs are :class:`optimizer.program.kernel.programs.Programs`.
 """

@@ -44,7 +44,7 @@ def verdicts(  # type: ignore[no-untyped-def]
     Parameters
     ----------
     value, bound, rounding, yardstick : (N, G) of the goals; the third is of the first.
-    excess, mass, resolution, mass_bound : (N,) largest over a ceiling; mass, what it is told by, its lower bound.
+    excess, mass, resolution, mass_bound : (N,) largest over a ceiling; mass, its resolution, its lower bound.
     of_mass : whether the last is one.
     contradicted : whether another bound is above its value.
     most, most_excess, most_mass, mass_rounding : tolerances of the relative gap, of the excess, of the relative gap of

@@ -146,7 +146,7 @@ def lengths(own, response, v, q, e, edges):  # type: ignore[no-untyped-def]
     """Steps e (3, K L) of the webs and of their edges (2, K L), as long as the multipliers have taken them to be.
 
     A web between its limits that a budget or the mass has a price for gives way along itself by 1e9 times the rounding
-    of that price. What the multipliers were found from is the sum of two large steps; e is more accurate in all but
+    of that price. The multipliers come from the sum of two large steps; e is more accurate in all but
     its length.
     """
     for k in range(v.shape[1]):

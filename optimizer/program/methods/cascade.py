@@ -1,7 +1,7 @@
 """Which method is tried when: for one program that the compiled interior point leaves open (docs/mathematics.md, 9).
 
-Without ceilings, one after the other, each with what is known already: polish, reference solver, finer numbers.
-With ceilings it is first found out whether they can be kept, and with how much room:
+Without ceilings, one after the other, each from the point and bound so far: polish, reference solver, finer numbers.
+With ceilings a first phase decides whether they can be kept, and with how much room:
 
     out of reach             the proof of that is the answer
     rest is an optimum       the answer, but for the tolerance of the ceilings
@@ -32,7 +32,7 @@ from optimizer.program.reference.solver import least_mass, smallest_objective
 from optimizer.program.solution import CEILING_ROUNDING, CLOSED_FORM, CONE_PROGRAM, ConeSolution, evaluated
 from optimizer.program.statement import Statement
 
-#: the smallest objective is sought this much more sharply than optima are told apart
+#: the smallest objective is sought this much more sharply than the tolerance between optima
 _SHARPNESS = 1e-4
 #: relative gap of the least mass that ends the search
 _MASS_GAP = 1e-6
@@ -43,7 +43,7 @@ def cascade(statement: Statement, target: Target, quick: StagePair) -> ConeSolut
 
     Parameters
     ----------
-    quick : what the interior point has found, not certified.
+    quick : point and multipliers of the compiled interior point, not certified.
 
     Returns
     -------
@@ -105,7 +105,7 @@ def _by_all(
     inside: Complex | None = None,
     finer: bool = True,
 ) -> ConeSolution:
-    """One method after the other, each with what is known already.
+    """One method after the other, each from the point and bound so far.
 
     Parameters
     ----------

@@ -1,44 +1,24 @@
-"""The compiled interior point behind the certificate: many programs at once, each with its own proof."""
+"""Which stages solve programs, many at once, and which of their points are taken, each with its own proof."""
 
 import time
-from collections.abc import Callable
-from functools import cache, partial
-from types import ModuleType
-from typing import TYPE_CHECKING, Any, NamedTuple
+from functools import partial
 
 import numpy as np
 
-from optimizer.numerics.arrays import Complex, Real, all_true, in_order, mapped, parts, plain
+from optimizer.numerics.arrays import Complex, Real, all_true
 from optimizer.numerics.records import record
 from optimizer.program.ceilings import CEILING_TOLERANCE
 from optimizer.program.certificate import Multipliers, nothing_proven
-from optimizer.program.compiled_evaluation import Dual, Shares
-from optimizer.program.kernel.finer_numbers import Precision, solve_in
+from optimizer.program.compiled_evaluation import Shares
+from optimizer.program.kernel.finer_numbers import Precision
 from optimizer.program.methods.disc_programs import disc_stages, suits_discs
 from optimizer.program.methods.rounding import HEAVIER, RUNGS
+from optimizer.program.methods.stage_ends import StageEnds, Tolerances, in_finer_numbers, solve_stages
 from optimizer.program.points import points_at
-from optimizer.program.scaling import cancelling
 from optimizer.program.solution import CEILING_ROUNDING, Solutions, side_by_side
 from optimizer.program.statement import Statement
 
-if TYPE_CHECKING:
-    from optimizer.program.kernel.interior_point import Programs
-
-#: both stages, as :func:`optimizer.program.kernel.interior_point.solve`, of programs in units of their own
-Method = Callable[..., tuple[Any, ...]]
-
-
-class _Tolerances(NamedTuple):
-    """Gaps at which the stages end."""
-
-    sharpness: float  # first stage, as a share of what optima may differ by, between finest and coarsest
-    finest: float
-    coarsest: float
-    mass: float  # second stage, relative to the mass
-    ceilings: float  # share of their size by which ceilings are lowered, so that the answer keeps them
-
-
-_DOUBLE = _Tolerances(1e-5, 1e-12, 1e-9, 1e-7, 2e-12)
+_DOUBLE = Tolerances(1e-5, 1e-12, 1e-9, 1e-7, 2e-12)
 #: what rounding ended early under ceilings mostly ends well when they are a hair elsewhere
 _ELSEWHERE = _DOUBLE._replace(ceilings=2e-11)
 #: largest gap of the first stage that is good enough, as a share of what optima may differ by, where its point is
@@ -56,7 +36,7 @@ MOST_NORMS = 150
 class StageSolutions(Solutions):
     """Where both stages of N programs ended: of the points that they came upon the lightest that is an optimum."""
 
-    smallest: Complex  # (N, K) kg m, the smallest objective found, whatever its mass
+    smallest: Complex  # (N, K) kg m, of the smallest objective in either stage, whatever its mass
     certified: np.ndarray  # (N,) bool: nothing better is worth looking for
 
 
@@ -80,19 +60,19 @@ def stage_solutions(
 ) -> StageSolutions:
     """Both stages of N statements of one shape, one leading axis (N,).
 
-    What is found for one program does not depend on the others.
+    The result for one program does not depend on the others.
 
     Parameters
     ----------
     share : (N,) how far above the smallest objective an optimum may be, in units of the objective.
-    demand : (N,) gap that is asked for; one above the share is met by less than the best.
+    demand : (N,) target gap; one above the share is met by less than the best.
     precision : solve in finer numbers, interpreted: a thousand times slower.
-    at_least : (N,) what the objective is known to come to under the ceilings, which may be far more than at rest.
+    at_least : (N,) lower bound of the objective under the ceilings, which may be far more than at rest.
     """
     if precision is not None:
         finest = precision.finest
-        finer = _Tolerances(1e-7, finest, 100 * finest, precision.mass, 0.1 * CEILING_ROUNDING)
-        solved = _solve(statement, share, least_mass, finer, _in(precision), at_least)
+        finer = Tolerances(1e-7, finest, 100 * finest, precision.mass, 0.1 * CEILING_ROUNDING)
+        solved = solve_stages(statement, share, least_mass, finer, in_finer_numbers(precision), at_least)
         return _judged(statement, share, demand, least_mass, solved)
     (discs,) = suits_discs(statement, least_mass).nonzero()
     level = at_least if isinstance(at_least, np.ndarray) else np.full(share.shape, at_least)
@@ -118,22 +98,21 @@ def stage_solutions(
 def _as_discs(statement: Statement, share: Real, demand: Real, least_mass: bool, at_least: Real) -> StageSolutions:
     """Both stages of programs that all suit the interior point for discs.
 
-    Ceilings that are kept without counterweights mostly are kept by the optimum without them too, and that is what is
-    sought then: what is proven without ceilings is proven with them. It is sought again where it is above one.
+    Where the ceilings are kept without counterweights, the optimum without ceilings mostly keeps them too. That is
+    sought first: what is proven without ceilings is proven with them. It is sought again where it is above one.
     """
     if not statement.ceilings.names:
-        return _judged(
-            statement, share, demand, least_mass, _solve(statement, share, least_mass, _DOUBLE, disc_stages, at_least)
-        )
+        solved = solve_stages(statement, share, least_mass, _DOUBLE, disc_stages, at_least)
+        return _judged(statement, share, demand, least_mass, solved)
     ceilings = statement.ceilings
     below = np.logical_and.reduce(statement.constant_sizes[:, -len(ceilings.names) :] <= ceilings.cap, axis=-1)
     method = partial(disc_stages, without_ceilings=below)
-    solved = _solve(statement, share, least_mass, _DOUBLE, method, at_least)
+    solved = solve_stages(statement, share, least_mass, _DOUBLE, method, at_least)
     stages = _judged(statement, share, demand, least_mass, solved)
     left = np.flatnonzero(below & ~stages.certified)
     if left.size:
         part = statement.subset(left)
-        solved = _solve(part, share[left], least_mass, _DOUBLE, disc_stages, at_least[left])
+        solved = solve_stages(part, share[left], least_mass, _DOUBLE, disc_stages, at_least[left])
         stages.put(left, _judged(part, share[left], demand[left], least_mass, solved))
     return stages
 
@@ -141,7 +120,7 @@ def _as_discs(statement: Statement, share: Real, demand: Real, least_mass: bool,
 def _out_of_reach(statement: Statement) -> np.ndarray:
     """Whether the ceilings of N programs are proven to be out of reach (N,) bool: then no method ends well."""
     excess, tolerance = statement.excess(), np.full(statement.floor.shape[:-1], CEILING_TOLERANCE)
-    nearest = _judged(excess, tolerance, tolerance, False, _solve(excess, tolerance, False, _DOUBLE))
+    nearest = _judged(excess, tolerance, tolerance, False, solve_stages(excess, tolerance, False, _DOUBLE))
     return np.asarray(nearest.lower_bound > CEILING_ROUNDING)
 
 
@@ -166,26 +145,27 @@ def ends(statement: Statement, share: Real, least_mass: bool) -> tuple[Complex, 
     return guess.smallest, guess.lightest
 
 
-def _guess(statement: Statement, share: Real, least_mass: bool) -> "_Solved":
+def _guess(statement: Statement, share: Real, least_mass: bool) -> StageEnds:
     if not suits_discs(statement, least_mass).all():
-        return _solve(statement, share, least_mass, _DOUBLE)
-    guess = _solve(statement, share, least_mass, _DOUBLE, disc_stages)
+        return solve_stages(statement, share, least_mass, _DOUBLE)
+    guess = solve_stages(statement, share, least_mass, _DOUBLE, disc_stages)
     # prices are above 0 where a stage has ended
     last = guess.mass_proof if least_mass else guess.proof
     left = np.flatnonzero(np.minimum(guess.proof.row, last.row)[:, 0] <= 0.0)
     if left.size:
-        guess.put(left, _solve(statement.subset(left), share[left], least_mass, _DOUBLE))
+        guess.put(left, solve_stages(statement.subset(left), share[left], least_mass, _DOUBLE))
     return guess
 
 
 def _general(statement: Statement, share: Real, demand: Real, least_mass: bool, at_least: Real) -> StageSolutions:
     """Both stages of programs of any limits; under ceilings what is left is tried once more."""
-    solved = _solve(statement, share, least_mass, _DOUBLE, at_least=at_least)
+    solved = solve_stages(statement, share, least_mass, _DOUBLE, at_least=at_least)
     stages = _judged(statement, share, demand, least_mass, solved)
     if not statement.ceilings.names or stages.certified.all():
         return stages
     left = np.flatnonzero(~stages.certified)
-    nearest = _solve(statement.subset(left).excess(), np.full(left.size, CEILING_TOLERANCE), False, _DOUBLE).smallest
+    excess, tolerance = statement.subset(left).excess(), np.full(left.size, CEILING_TOLERANCE)
+    nearest = solve_stages(excess, tolerance, False, _DOUBLE).smallest
     room = points_at(statement.subset(left), nearest).excess < 0
     left, inside = left[room], nearest[room]
     for tolerances in (_DOUBLE, _ELSEWHERE):
@@ -195,14 +175,14 @@ def _general(statement: Statement, share: Real, demand: Real, least_mass: bool, 
         if tolerances is _DOUBLE:
             points = solved.subset(left)
         else:
-            points = _solve(part, share[left], least_mass, tolerances, at_least=part.objective(inside))
+            points = solve_stages(part, share[left], least_mass, tolerances, at_least=part.objective(inside))
         again = _judged(part, share[left], demand[left], least_mass, points.pulled(part, inside))
         stages.put(left[again.certified], again.subset(again.certified))
         left, inside = left[~again.certified], inside[~again.certified]
     return stages
 
 
-def _judged(statement: Statement, share: Real, demand: Real, least_mass: bool, solved: "_Solved") -> StageSolutions:
+def _judged(statement: Statement, share: Real, demand: Real, least_mass: bool, solved: StageEnds) -> StageSolutions:
     """Of the points of both stages the ones to take, with their proofs."""
     began = time.perf_counter()
     judgement = statement.flat.judge(
@@ -232,169 +212,3 @@ def _judged(statement: Statement, share: Real, demand: Real, least_mass: bool, s
         smallest=judgement.smallest,
         certified=judgement.certified,
     )
-
-
-@record(frozen=True)
-class _Solved:
-    """Where the stages of N programs ended."""
-
-    smallest: Complex  # (N, K) kg m, the end of the first stage
-    lightest: Complex  # (N, K) kg m, the end of the second one
-    proof: Multipliers  # (N, ...), of the objective
-    mass_proof: Multipliers  # (N, ...), of the mass
-
-    def subset(self, programs: np.ndarray) -> "_Solved":
-        return mapped(self, lambda array: array[programs])
-
-    def put(self, programs: np.ndarray, rivals: "_Solved") -> None:
-        """Others in place of some."""
-        self.smallest[programs], self.lightest[programs] = rivals.smallest, rivals.lightest
-        self.proof.put(programs, rivals.proof)
-        self.mass_proof.put(programs, rivals.mass_proof)
-
-    def pulled(self, statement: Statement, inside: Complex) -> "_Solved":
-        points = pulled(statement, self.smallest, inside), pulled(statement, self.lightest, inside)
-        return _Solved(*points, self.proof, self.mass_proof)
-
-
-def _solve(
-    statement: Statement,
-    share: Real,
-    least_mass: bool,
-    tolerances: _Tolerances,
-    method: Method | None = None,
-    at_least: Real | float = 0.0,
-) -> _Solved:
-    if statement.limits.radius.shape[-1] == 0:
-        # nothing to choose
-        nothing, proof = np.zeros(statement.limits.radius.shape, complex), nothing_proven(statement)
-        return _Solved(nothing, nothing, proof, proof)
-    reach, unit, demands = _scales(statement, share, tolerances, at_least)
-    result = (method or _by_interior_point)(
-        statement, reach, unit, tolerances.ceilings, least_mass, demands[0], demands[1], tolerances.mass
-    )
-    points, (term, row, ceiling) = _physical(statement, (reach, unit), *result)
-    proofs = Multipliers(term[0], row[0], ceiling[0]), Multipliers(term[1], row[1], ceiling[1])
-    return _Solved(points[0], points[1], *proofs)
-
-
-def _physical(
-    statement: Statement, scales: tuple[Real, Real], v: Complex, cone: Real, row: Real, mass_unit: Real
-) -> tuple[Complex, Dual]:
-    """Points (2, N, K) kg m within all limits, and multipliers (2, N, ...), where both stages ended.
-
-    Parameters
-    ----------
-    scales : of :func:`_scales`.
-    v, cone, row, mass_unit : as a method finds them.
-    """
-    programs, points, stages = statement.flat.programs, np.empty(v.shape, complex), v.shape[:2]
-    terms, ceilings = programs.owner.size, programs.size.shape[1]
-    proof = np.empty((*stages, terms), complex), np.empty(row.shape), np.empty((*stages, ceilings), complex)
-    arrays = in_order(v), in_order(cone), in_order(row), in_order(mass_unit)
-    _units().physical(*arrays, *scales, programs.size, programs.vectors[0], points, *proof, *programs.region)
-    return points, proof
-
-
-def _scales(
-    statement: Statement, share: Real, tolerances: _Tolerances, at_least: Real | float
-) -> tuple[Real, Real, Real]:
-    """How far webs reach (N, K), the unit of the objective (N,), and in that the share and the asked gap (2, N)."""
-    region, influence = statement.flat.programs.region, in_order(statement.norms.influence)
-    many, _, webs = influence.shape
-    reach, unit, demands = np.empty((many, webs)), np.empty(many), np.empty((2, many))
-    _disc_forms().scales(
-        in_order(statement.constant_sum),
-        influence,
-        np.abs(cancelling(statement)),
-        in_order(statement.single_reach),
-        region.radius,
-        region.max_mass,
-        region.budget,
-        at_least if isinstance(at_least, np.ndarray) else np.full(many, at_least),
-        in_order(share),
-        tolerances.sharpness,
-        tolerances.finest,
-        tolerances.coarsest,
-        reach,
-        unit,
-        demands,
-    )
-    return reach, unit, demands
-
-
-def pulled(statement: Statement, u: Complex, inside: Complex) -> Complex:
-    """Points above a ceiling, moved towards ones below it just so far; excesses are convex (..., K)."""
-    above, below = points_at(statement, np.array([u, inside])).excess
-    needed = above > CEILING_ROUNDING
-    step = np.where(needed, above / np.where(needed, above - np.minimum(below, 0.0), 1.0), 0.0)
-    return u + step[..., None] * (inside - u)
-
-
-def _by_interior_point(statement: Statement, reach: Real, unit: Real, margin: float, *stages: Any) -> tuple[Any, ...]:
-    # the compiler is loaded when it is first needed
-    from optimizer.program.kernel.interior_point import solve
-
-    return _in_frame(statement, *solve(_programs(statement, reach, unit, margin), *stages))
-
-
-def _in(precision: Precision) -> Method:
-    """Interpreted, in finer numbers, which warn where compiled ones end in a NaN, and the search with it."""
-
-    def method(statement: Statement, reach: Real, unit: Real, margin: float, *stages: Any) -> tuple[Any, ...]:
-        with np.errstate(all="ignore"):
-            arrays = solve_in(precision)(_programs(statement, reach, unit, margin), *stages)
-        return _in_frame(statement, *(np.asarray(values, dtype=float) for values in arrays))
-
-    return method
-
-
-def _in_frame(statement: Statement, v: Real, *rest: Any) -> tuple[Any, ...]:
-    """Unbalances along and across the sectors (2, N, 3, K), after the sizes, as vectors."""
-    limits = statement.limits
-    return limits.centre * (v[:, :, 1] + 1j * limits.half_angle_sin * v[:, :, 2]), *rest
-
-
-def _programs(statement: Statement, reach: Real, unit: Real, margin: float) -> "Programs":
-    from optimizer.program.kernel.interior_point import Programs
-
-    limits, norms, ceilings = statement.limits, statement.norms, statement.ceilings
-    constant = np.concatenate([norms.constant / unit[:, None], ceilings.norms.constant / ceilings.size], axis=-1)
-    influence = np.concatenate(
-        [norms.influence / unit[:, None, None], ceilings.norms.influence / ceilings.size[..., None]], axis=-2
-    )
-    cap = ceilings.cap / ceilings.size
-    mass = reach / limits.radius
-    highest = np.maximum.reduce(statement.floor, axis=-1)
-    budget = limits.max_total_mass[:, None]
-    # where nothing is left no web reaches anything
-    over = np.add.reduce(mass, axis=-1, keepdims=True) > budget
-    programs = Programs(
-        row=statement.row.astype(np.int64),
-        floor=(statement.floor - highest[:, None]) / unit[:, None],
-        cap=cap - np.clip(cap, 0.0, margin),
-        constant=parts(constant),
-        influence=influence * reach[:, None, :],
-        centre=parts(limits.centre),
-        sine=limits.half_angle_sin,
-        cosine=limits.half_angle_cos,
-        sector=np.where(limits.free, 0.0, 1.0),
-        mass=mass,
-        budget=mass / np.where(over, budget, np.inf),
-    )
-    return Programs(*(plain(values) for values in programs))
-
-
-# loads the compiler, a tenth of a second, and so at the first call; an import at each takes as long as a short loop
-@cache
-def _disc_forms() -> ModuleType:
-    from optimizer.program.kernel import disc_forms
-
-    return disc_forms
-
-
-@cache
-def _units() -> ModuleType:
-    from optimizer.program.kernel import units
-
-    return units

@@ -53,7 +53,7 @@ def discs_of(
 ) -> Sequence[tuple[np.ndarray | None, bool, "Discs"]]:
     """N programs in parts of one form each: which they are, whether they have a budget, and in units of their own.
 
-    Parameters are those of a method of :mod:`optimizer.program.methods.compiled`. Of one part alone which they are is
+    Parameters are those of a method of :mod:`optimizer.program.methods.stage_ends`. Of one part alone which they are is
     None: all.
 
     Parameters
@@ -149,7 +149,7 @@ def _basis(statement: Statement) -> np.ndarray | None:
         return _places(vectors)
     responses = [term.response for term in statement.names.terms] + list(statement.ceilings.names)
     if len(responses) != vectors:
-        # names of more than is asked for
+        # the names cover more than these vectors
         return None
     two = list(dict.fromkeys(responses))
     return np.array([two.index(name) for name in responses]) if len(two) < 3 else None

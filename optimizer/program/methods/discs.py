@@ -1,7 +1,7 @@
 """Ceilings on components as discs, which the batch kernel takes.
 
-The component of a vector along a direction is at most a where the vector is beyond no line. Of vectors that go no
-farther than V along that line, a disc of radius S that touches it holds none that is beyond; one of radius
+The component of a vector along a direction is at most a where the vector is beyond no line. Take vectors that go no
+farther than V along that line. A disc of radius S that touches it holds none that is beyond; one of radius
 sqrt(S^2 + V^2) about the same middle holds all that are not.
 """
 

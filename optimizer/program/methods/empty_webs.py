@@ -1,8 +1,8 @@
 """Webs left empty that carry next to nothing, in the answers of all methods.
 
-What rounding cannot take away (:mod:`optimizer.program.methods.rounding`) is sought again without the webs that are to
-be empty: what is found is within the limits of all webs, so that what is proven of these holds for it. The point is
-taken where it is an optimum by that proof; a web without which no optimum is found keeps what it has.
+A web that rounding cannot empty (:mod:`optimizer.program.methods.rounding`) is left out of a second search. Its point
+is within the limits of all webs, so that the proof for these limits holds for it. The point is
+taken where it is an optimum by that proof; a web that every optimum needs keeps its counterweight.
 """
 
 from dataclasses import replace
@@ -110,7 +110,7 @@ def _emptied(
     share: Real,
     least_mass: bool,
 ) -> Points:
-    """One point with as many webs empty as an optimum can be found without, all at once or one by one.
+    """One point with as many empty webs as an optimum allows, all at once or one by one.
 
     Parameters
     ----------

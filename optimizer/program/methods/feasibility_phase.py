@@ -27,7 +27,7 @@ _PRINTED = 1e-13
 
 
 def smallest_excess(statement: Statement) -> ConeSolution:
-    """The smallest largest excess over the ceilings, as far as its sign and the room below them are told."""
+    """The smallest largest excess over the ceilings, closely enough for its sign and the room below them."""
     program = statement.excess()
     target = Target(CEILING_TOLERANCE, CEILING_TOLERANCE, False)
     solution = interior_point(program, target).smallest
@@ -66,7 +66,7 @@ def raised(statement: Statement) -> Statement:
 
 
 def proven_again(statement: Statement, solution: ConeSolution) -> ConeSolution:
-    """The same point with its bounds, both for the ceilings that were asked for."""
+    """The same point with its bounds, both for the ceilings of the program."""
     solution = solution.with_point(statement, solution.unbalance)
     solution = replace(solution, lower_bound=float(objective_lower_bound(statement, solution.multipliers)))
     if solution.mass_multipliers is not None:

@@ -2,7 +2,7 @@
 
 Where a web has no limit, or one far beyond any need, a bound would pay the rounding of its multipliers times that
 limit. But counterweights matter only by what they add to the terms and ceilings, c = sum_k h_k u_k. The objective, or
-a ceiling, bounds every response of an optimum, so c is bounded; and any c that the webs without a limit can carry they
+a ceiling, bounds every response of an optimum, so c is bounded. Any c that the webs without a limit can carry they
 can carry with little mass. So the lightest optimum is no heavier there (docs/mathematics.md section 5).
 """
 
@@ -57,7 +57,7 @@ def within_reach(statement: Statement) -> Statement:
     nothing = np.zeros(statement.limits.radius.shape[-1:], complex)
     reached = far & np.all(statement.ceilings.excess(nothing) <= 0, axis=-1)
     if statement.limits.alike is None and np.any(reached):
-        # all those together that nothing need be found out about
+        # all programs together in which the empty machine keeps the ceilings
         programs = statement.subset(reached)
         most[reached] = _finite(programs, level_above(programs, nothing))
         far = far & ~reached
@@ -67,7 +67,7 @@ def within_reach(statement: Statement) -> Statement:
 
 
 def _within_reach(statement: Statement) -> Statement:
-    """One program, its limits proven by what is known to be reached within the ceilings."""
+    """One program, its limits proven by a level that some point within the ceilings reaches."""
     point = np.zeros(statement.limits.radius.shape, complex)
     if np.any(statement.ceilings.excess(point) > 0):
         excess = statement.excess()
@@ -93,7 +93,7 @@ def bounded(statement: Statement, level: float) -> Statement:
     Parameters
     ----------
     statement : one program (no leading axes); a limit of inf is none.
-    level : what the objective is known to reach within limits and ceilings, or more. The reach holds for all that is
+    level : value of the objective at some point within limits and ceilings, or more. The reach holds for all that is
         no larger.
     """
     limits, alike = statement.limits, statement.limits.alike
@@ -123,7 +123,7 @@ def _finite(statement: Statement, level: Real) -> Real:
             near = webs & (part.limits.max_mass < mass)
             final = ~np.any(near, axis=-1)
             max_mass[programs[final]] = np.where(webs, mass, part.limits.max_mass)[final]
-            # webs whose limits are nearer than what is proven are as they are; of the others it is found out anew
+            # webs whose limits are nearer than the proof stay as they are; the others are bounded anew
             far[programs] &= ~near & ~final[:, None]
     return max_mass
 
@@ -163,7 +163,7 @@ def carrying_mass(influence: Real, limits: Limits, most: Real, scalar: np.ndarra
     Parameters
     ----------
     influence : (N, s, n) of one kilogram.
-    most : (N, s); inf where nothing bounds a response, as while no choice is known to keep the ceilings.
+    most : (N, s); inf where nothing bounds a response, as without a choice that keeps the ceilings.
     """
     plane = np.all(limits.free, axis=-1) if most.shape[-1] <= 2 and not np.any(scalar) else np.zeros(len(most), bool)
     masses = np.full(len(most), np.inf)
@@ -243,7 +243,7 @@ def _owners(rows: Real | Complex, is_nonzero: np.ndarray, scalar: np.ndarray) ->
 
 
 def _masses_by_inverse(influence: Real | Complex, most: Real) -> Real:
-    """Masses (N, n) of webs that are told by what they change, of which every c has |c_s| <= most_s, kg; else inf.
+    """Masses (N, n) of webs that are determined by the responses c, of which |c_s| <= most_s, kg; else inf.
 
     Each is G c, with G a left inverse of the influences, but for the error 1 - G A of that.
 

@@ -1,7 +1,7 @@
-"""Programs without the rows that are far below the largest: where the least mass is often found at once.
+"""Programs without the rows that are far below the largest: there the least mass often needs one attempt.
 
 Where the larger of force and moment counts, one may be far below the other at every optimum, as the force of an even
-layout is, and then the interior point of the least mass stalls. Without that row it does not; what is proven of the
+layout is. Then the interior point of the least mass stalls. Without that row it does not. What is proven of the
 others is proven of all, and the point is as good where the row is still below.
 """
 

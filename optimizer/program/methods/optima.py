@@ -82,7 +82,7 @@ def optima(statement: Statement, relative_gap: float, least_mass: bool) -> Optim
     Parameters
     ----------
     statement : programs whose limits are finite (:func:`optimizer.program.methods.implied_bounds.within_reach`).
-    relative_gap : asked gap, relative to the objective without counterweights.
+    relative_gap : target gap, relative to the objective without counterweights.
     least_mass : take the least total mass among the optima.
     """
     alike = statement.limits.alike
@@ -152,7 +152,7 @@ def _without_unreachable(statement: Statement, answer: Optima, programs: np.ndar
 
 
 def _compiled(statement: Statement, solutions: Solutions) -> Optima:
-    """What the compiled interior point has found."""
+    """Optima of the compiled interior point."""
     programs = solutions.objective.shape
     method = _METHODS[bool(statement.limits.radius.shape[-1])].repeat(solutions.objective.size)
     own = np.zeros(programs, bool), method, _no_conflict(statement)
@@ -166,7 +166,7 @@ def _no_conflict(statement: Statement) -> Multipliers:
 
 
 def _nothing(statement: Statement) -> Optima:
-    """Nothing found, nothing proven."""
+    """No point and no proof."""
     webs = statement.limits.radius.shape
     endless = np.full(webs[:-1], np.inf)
     return Optima(

@@ -8,8 +8,9 @@ import numpy as np
 from optimizer.numerics.arrays import Complex
 from optimizer.program.certificate import mass_lower_bound, objective_lower_bound
 from optimizer.program.kernel.finer_numbers import FIFTY_DIGITS, Precision
-from optimizer.program.methods.compiled import ENOUGH, ENOUGH_FOR_MASS, pulled
+from optimizer.program.methods.compiled import ENOUGH, ENOUGH_FOR_MASS
 from optimizer.program.methods.single import StagePair, Target, interior_point, light
+from optimizer.program.methods.stage_ends import pulled
 from optimizer.program.multipliers import mass_multipliers, objective_multipliers, supporting_multipliers
 from optimizer.program.solution import ConeSolution
 from optimizer.program.statement import Statement

@@ -1,7 +1,7 @@
 """Counterweights that nearly vanish, or nearly touch a limit, exactly there: no dust, and limits to the last digit.
 
-An interior point ends inside all limits. What is small beside the other counterweights is taken away, what is next to
-a limit is put there, and the counterweights between their limits make up for it: by the least change, relative to
+An interior point ends inside all limits. Masses that are small beside the others are taken away, and those next to a
+limit are put there. The counterweights between their limits make up for it by the least change, relative to
 their size, that leaves every term of the objective and every response under a ceiling as it was.
 """
 

@@ -1,7 +1,7 @@
 """A finite reach for webs without a limit whose counterweights have a least mass where they are fitted, proven.
 
-Of all points with the same responses take the lightest. Of its webs without a limit some carry nothing or their least;
-those that carry more could carry a little less, so together they are no heavier than the lightest that changes the
+Of all points with the same responses take the lightest. Of its webs without a limit some carry nothing or their least.
+Those that carry more could carry a little less. So together they are no heavier than the lightest that changes the
 responses as they do, whatever the least masses. What they change is bounded by what the responses may come to and what
 the least masses of the others do (docs/mathematics.md section 5).
 """
@@ -29,8 +29,8 @@ def within_semicontinuous_reach(statement: Statement, least: Real, level: float 
     Parameters
     ----------
     least : (K,) kg, of what is fitted; 0 where there is none.
-    level : what the objective of some choice is known to reach within the ceilings, or more; inf where none is known.
-        By default what it comes to without counterweights, if these ceilings allow that.
+    level : value of the objective at some choice within the ceilings, or more; inf without such a choice.
+        By default its value without counterweights, if these ceilings allow that.
     """
     limits, far = statement.limits, far_limits(statement)
     if not far.any():

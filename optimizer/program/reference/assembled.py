@@ -19,7 +19,7 @@ from optimizer.numerics.records import record
 from optimizer.program.reference.boost import Boost
 from optimizer.program.scaled_program import ScaledData, ScaledSolution
 
-#: of the solver, if nothing else is asked
+#: of the solver, by default
 REGULARIZATION = 1e-8
 #: rows of a second-order cone in the plane: size, real part, imaginary part
 _PLANE = 3
@@ -27,7 +27,7 @@ _PLANE = 3
 
 @record(frozen=True)
 class NoPoint:
-    """A program that found nothing, and why."""
+    """A program that ended without a point, and why."""
 
     reason: str
 
@@ -235,7 +235,7 @@ class GroupLimit(NamedTuple):
 
 
 class Assembled(NamedTuple):
-    """What was found, unjudged, with what the targets cost."""
+    """A point before its verdict, with the prices of the targets."""
 
     solution: ScaledSolution
     level: Real  # (groups,) above the highest floor of each

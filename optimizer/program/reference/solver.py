@@ -59,13 +59,13 @@ def smallest_objective(
     """The smallest objective, with its bound.
 
     Tries harder until the certified gap is at most ``enough``. If no point that keeps the
-    ceilings was found, the one with the smallest excess is returned, and says so.
+    ceilings was reached, the one with the smallest excess is returned, and says so.
 
     Parameters
     ----------
     enough : gap that ends the search, in units of the objective.
-    start : what is known already.
-    stop : whether the best so far is all that has to be known.
+    start : point and bounds so far.
+    stop : whether the best so far is enough to end the search.
     """
     best = evaluated(statement, np.zeros(statement.limits.radius.shape, complex))
     best = proven(statement, best, resting_multipliers(statement))
@@ -101,7 +101,7 @@ def least_mass(
     first : a solution whose objective is the smallest.
     share : how far above the smallest objective an optimum may be, in units of the objective.
     enough : relative gap of the mass that ends the search, besides what the tolerance of the ceilings is worth.
-    start : what is known already; its bound counts all objectives up to the share above its own first stage.
+    start : point and bounds so far; its bound counts all objectives up to the share above its own first stage.
     """
     rounding = float(statement.rounding(first.unbalance))
     target = max(first.objective, first.lower_bound + (1.0 - _TARGET_MARGIN) * share - rounding)

@@ -27,7 +27,7 @@ class Outlines(NamedTuple):
     """Of J curves.
 
     piece : (P',) those that have a width.
-    values : (J, P' S) of the cubics at the places; of no meaning where a curve is known to be smaller than another.
+    values : (J, P' S) of the cubics at the places; of no meaning where a curve is proven to be smaller than another.
     centre, radius : (J,) of the smallest circles around them.
     lower, upper : (J,) what the radius of the smallest circle around the curve is not below, and what none of its
         points is farther than from the centre.
@@ -218,7 +218,7 @@ def nearer(cubics, curve, piece, angle, cubic, centre):  # type: ignore[no-untyp
 
 @inner
 def _farthest(cubic, centre, place):  # type: ignore[no-untyped-def]
-    """The place within [-1, 1], near a given one, at which a cubic (4,) is farthest from a centre; by Newton."""
+    """The place within [-1, 1], near another one, at which a cubic (4,) is farthest from a centre; by Newton."""
     constant, linear, square, cube = cubic[0] - centre, cubic[1], cubic[2], cubic[3]
     for _ in range(_STEPS):
         value = constant + place * (linear + place * (square + place * cube))

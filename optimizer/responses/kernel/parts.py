@@ -1,8 +1,8 @@
 """Parts of the pieces of curves that may hold peaks, narrowed by their polynomials; compiled.
 
 A part is let go where its largest Bernstein coefficient, and what the polynomial leaves out, is no more than the best
-value found, but for what the bracket may leave open: then it is told in the bracket. Where several peaks of a group
-are asked for, the largest, all of them have one bracket.
+value so far, but for what the bracket may leave open: then the bracket includes it. In a search for the largest of
+several peaks all of these have one bracket.
 """
 
 from typing import NamedTuple
@@ -18,7 +18,7 @@ from optimizer.numerics.polynomials import shifts, to_bernstein
 _FINE, _FINER = 4, 16
 #: a rest of this share of what the bracket may leave open is no longer what keeps it open
 ENOUGH = 0.125
-#: after so many cuts in a row the bracket is told as it is
+#: after so many cuts in a row the bracket stays as it is
 MOST_CUTS = 39
 #: and so it is where so many parts may hold peaks: what is so steep is not worth more time
 MOST_PARTS = np.int64(50_000)
@@ -51,7 +51,7 @@ class Members(NamedTuple):
 
 
 class Best(NamedTuple):
-    """The best found of each of G peaks, and what nothing is above that was let go."""
+    """The best value of each of G peaks, and an upper bound of all parts that were let go."""
 
     lower: Real
     upper: Real
@@ -157,7 +157,7 @@ def _extremes(cubic, sign, square):  # type: ignore[no-untyped-def]
 def first_open(cubics, members, best):  # type: ignore[no-untyped-def]
     """The pieces that may hold a peak above the best value at a centre, by how far a cubic may be from it."""
     most = np.empty((members.curve.size, cubics.half.shape[1]))
-    # of designs of a sweep each has curves of its own, and memory that is not asked for is quicker
+    # curves of a sweep differ by design and have no use for this memory, which is slow to get
     curves, pieces = cubics.half.shape
     reach = np.empty((curves if members.curve.size > curves else 0, pieces))
     reach[:, :1] = np.nan
@@ -173,7 +173,7 @@ def _write_bounds(cubics, members, best, reach, most):  # type: ignore[no-untype
     Parameters
     ----------
     reach : (J, P) room for how far curves may be from the middles of their pieces, of which the first is nan where it
-        is not known yet; (0, P) where none is asked for twice.
+        is undetermined; (0, P) if no curve has two peaks.
     """
     number, pieces = most.shape
     for m in range(number):
@@ -236,7 +236,7 @@ def _begun(cubics, members, best, most, parts):  # type: ignore[no-untyped-def]
 
 @inner_with_arrays
 def still_open(parts, members, best, most_parts):  # type: ignore[no-untyped-def]
-    """Those that may hold a peak above the best found, theirs included, unless there are too many."""
+    """Parts that may hold a peak above the best value, and those that hold it, unless there are too many."""
     number = parts.member.size
     most, open_ = np.empty(number), np.empty(number, np.bool_)
     survivors = _none(_compared(parts, members, best, most_parts, most, open_, np.empty(7)))
@@ -293,7 +293,7 @@ def _cut(parts, mask, places, shift):  # type: ignore[no-untyped-def]
 
 @inner
 def _divided(parts, mask, places, shift, children):  # type: ignore[no-untyped-def]
-    """Write the pieces of the chosen parts."""
+    """Write the pieces of the parts in a mask."""
     share, k = places.size, 0
     for n in range(mask.size):
         if mask[n]:
@@ -314,7 +314,7 @@ def _divided(parts, mask, places, shift, children):  # type: ignore[no-untyped-d
 def narrowed(parts, members, best, cuts):  # type: ignore[no-untyped-def]
     """Cut what may hold peaks until none is left or some would have to be expanded anew: (cut, to be expanded, cuts).
 
-    Most of the latter are let go by what is known: an expansion costs far more.
+    Most of the latter are let go without an expansion, which costs far more.
     """
     while parts.member.size > 0 and cuts < MOST_CUTS:
         coarse, any_coarse = np.empty(parts.member.size, np.bool_), False

@@ -25,7 +25,7 @@ _CANDIDATES = 2_000
 class _Assignment(NamedTuple):
     """An assignment with what it comes to."""
 
-    value: float  # over omega squared; inf where that was not found out
+    value: float  # over omega squared; inf without an optimum
     bound: float
     mass: Real  # (T,)
     fitted: Solution | None  # its counterweights, where they are no optimum of any masses
@@ -40,7 +40,7 @@ class SearchOutcome(NamedTuple):
 
 
 class _Search:
-    """The assignments that are known, and the minorants of all."""
+    """The assignments so far, and the minorants of all."""
 
     def __init__(self, problem: Problem, optima: CounterweightOptima) -> None:
         self.problem, self.optima, self._evaluations = problem, optima, dict[bytes, _Assignment]()
@@ -53,7 +53,7 @@ class _Search:
 
     @property
     def least(self) -> float:
-        """The smallest bound of those that are known."""
+        """The smallest bound of the assignments so far."""
         return min(evaluation.bound for evaluation in self._evaluations.values())
 
     @property
@@ -77,7 +77,7 @@ class _Search:
         return self.below.at(self.problem.vectors(mass))
 
     def unknown(self, mass: Real) -> Real:
-        """Those of some assignments (N, T) that are not known yet, each once."""
+        """Those of some assignments (N, T) that are new, each once."""
         new = {self._key(assignment): assignment for assignment in mass}
         return np.array([assignment for key, assignment in new.items() if key not in self._evaluations])
 
@@ -132,7 +132,7 @@ def _proven(search: _Search, bound: float, near: float) -> BestAssignment:
             break
         if search.late:
             best = search.best
-            # of those that are not known the smallest minorant, of the others their bounds, and no better is left out
+            # of new assignments the smallest minorant, of the others their bounds, and no better is left out
             least = min(best.value, search.least, float(np.min(search.values(new))))
             bound = max(bound, cut.least, least)
             return BestAssignment(best.mass, bound - problem.rounding, False, best.value - bound > near)

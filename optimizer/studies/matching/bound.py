@@ -47,7 +47,7 @@ def best_plane(problem: Problem, minorants: Minorants, value: float, near: float
 
     Parameters
     ----------
-    value : of the best assignment known.
+    value : of the best assignment so far.
     near : a bound so near to it is good enough.
     """
     results = [_ascended(problem, minorant, value, near) for minorant in minorants.singles()]

@@ -1,8 +1,8 @@
-"""Counterweights that are chosen with the parts: what each assignment comes to with those that are best for it.
+"""Counterweights that are optimised with the parts: the value of each assignment with its best counterweights.
 
 An assignment changes the program only in its constants, so multipliers of one bound all others (docs/mathematics.md).
-Of counterweights as a workshop makes them this is the program of any masses, which they are some of; what each
-assignment comes to is then searched, cut or certified by itself.
+For a workshop's counterweights this is the program of any masses, of which theirs are some. Then each assignment is
+searched, cut or certified by itself.
 """
 
 import time
@@ -34,7 +34,7 @@ from schemas.machine.reciprocating import ReciprocatingMachine
 from schemas.match.request import MatchRequest
 from schemas.request.requests import OptimizeRequest
 
-#: asked of every program, in units of its objective without counterweights
+#: target gap of every program, in units of its objective without counterweights
 _GAP = 1e-6
 #: of what may be left open that part which a search of one assignment may leave, and its limits
 _OPEN, _CLOSEST = 0.5, 1e-12
@@ -62,7 +62,7 @@ class CounterweightOptima:
 
     @property
     def is_nonconvex(self) -> bool:
-        """Whether every assignment is certified by itself: chosen, at least so heavy, or cut from plates."""
+        """Whether every assignment is certified by itself: with options, minimum masses, or plates."""
         machine = self.request.machine
         return machine.choice is not None or plates(machine) is not None
 
@@ -71,7 +71,7 @@ class CounterweightOptima:
 
         Parameters
         ----------
-        best : objective of the best assignment that is known; what is proven to be no better is not searched.
+        best : objective of the best assignment so far; what is proven to be no better is not searched.
         """
         row_mass = self.problem.row_masses(mass)
         program = self._programs(row_mass)

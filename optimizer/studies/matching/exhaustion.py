@@ -1,8 +1,8 @@
-"""All assignments that may be better than the best one known, by halves.
+"""All assignments that may be better than the best one so far, by halves.
 
-The sums of half the classes lie in a tree, those of the others are looked up in it: of two sums only those matter whose
-vectors nearly cancel (a ball: a sum of lengths is no less than the length of all together) or that are on the near side
-of a plane. What either leaves over is evaluated one by one, so nothing better is missed.
+The sums of half the classes lie in a tree, and those of the others are looked up in it. Of two sums only those matter
+whose vectors nearly cancel, or that are on the near side of a plane. The former lie in a ball: a sum of lengths is no
+less than the length of all together. What either leaves over is evaluated one by one, so nothing better is missed.
 """
 
 from itertools import combinations
@@ -98,7 +98,7 @@ def candidates(problem: Problem, minorants: Minorants, value: float, cut: Plane)
         places.append(below + at)
         values.append(result[below])
     numbers, worth = np.concatenate([*places, np.zeros(0, int)]), np.concatenate([*values, np.zeros(0)])
-    # of one that is exactly the best known many may be equal: those are no better, and not here
+    # many assignments may equal the best so far: those are no better, and not here
     order = np.argsort(worth, kind="stable")[:_CHUNK]
     if numbers.size > _CHUNK:
         return None

@@ -24,7 +24,7 @@ class BestAssignment(NamedTuple):
     mass: Real  # (T,) masses at places
     lower_bound: float  # over omega squared
     exhausted: bool
-    late: bool = False  # its time was over before the asked gap was reached
+    late: bool = False  # its time was over before the target gap was reached
 
 
 def as_fitted(problem: Problem, near: float, seconds: float, has_nuts: bool) -> BestAssignment:

@@ -1,7 +1,7 @@
 """Assignments of several classes whose vectors nearly cancel, of more than can be compared.
 
 The places are dealt into four groups, and the parts of each are put on it in every order. Orders that come near to
-nothing together are found as sums of four lists (:mod:`optimizer.numerics.four_lists`). The next groups are dealt by
+nothing together come from sums of four lists (:mod:`optimizer.numerics.four_lists`). The next groups are dealt by
 chance.
 """
 
@@ -32,7 +32,7 @@ class _Orders(NamedTuple):
 
 
 def near_to_nothing(problem: Problem, mass: Real, enough: float, spent: Callable[[], bool]) -> Real:
-    """An assignment (T,) no worse than a given one, sought until it is good enough or nothing better is found."""
+    """An assignment (T,) no worse than ``mass``: the search ends at ``enough``, or after many attempts without gain."""
     chance, value, left = np.random.default_rng(_SEED), _value(problem, mass), _PATIENCE
     axes, rows = _axes(problem)
     while value > enough and left > 0 and not spent():

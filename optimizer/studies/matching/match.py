@@ -51,7 +51,7 @@ def match(request: MatchRequest) -> MatchAnswer:
     cut = fitted_masses(request.machine, fitted)
     if not request.choose_counterweights:
         refuse(too_heavy(request.machine, request.counterweights, "counterweights"))
-        # nor are castings made alike of which nothing is chosen
+        # without counterweights as variables, castings of a group are no variables either
         cut = with_fields(cut, {("web_groups",): ()})
         request = with_fields(request, {("machine",): cut})
     problem = stated(request, cut, fitted, angle)
@@ -181,7 +181,7 @@ def _evaluated(request: MatchRequest, machine: ReciprocatingMachine, solution: S
 
 
 def _counterweights(request: MatchRequest, solution: Solution | None) -> Iterator[dict[str, Any]]:
-    """Counterweights that are on the machine, those that were chosen or those of the request."""
+    """Counterweights that are on the machine: those of the optimum, or those of the request."""
     if solution is None:
         yield from (counterweight.model_dump() for counterweight in request.counterweights)
         return

@@ -109,7 +109,7 @@ class Problem:
 
     @property
     def rounding(self) -> float:
-        """What a value is known no better than, wherever the parts are: a nut may be on any row, or beside them."""
+        """Rounding error of a value, wherever the parts are: a nut may be on any row, or beside them."""
         heaviest = np.zeros(self.rows)
         for group in self.classes:
             heaviest[group.row[group.row >= 0]] += np.max(group.mass)

@@ -29,8 +29,8 @@ _ROUNDINGS = 16.0
 class Exhausted(NamedTuple):
     """What was looked at."""
 
-    mass: Real | None  # (n,) of the class, place by place: better than what was known
-    value: float  # of the best that is known
+    mass: Real | None  # (n,) of the class, place by place: better than the best before
+    value: float  # of the best so far
     lower_bound: float  # of all assignments, but for the rounding of the problem
     complete: bool  # all of them were looked at
 
@@ -51,7 +51,7 @@ def exhausted(problem: Problem, cut: Plane, value: float, near: float, spent: Ca
     Parameters
     ----------
     cut : a plane below the peaks, with its smallest value over all assignments.
-    value : of the best assignment known; what is no better is not looked for.
+    value : of the best assignment so far; what is no better is not looked for.
     near : a bound so near to it is good enough.
     spent : whether the time is over.
     """

@@ -1,4 +1,4 @@
-"""Steps of mass and angle on either side of given counterweights, and the nearest ones."""
+"""Steps of mass and angle on either side of counterweights, and the nearest ones."""
 
 import math
 from typing import NamedTuple

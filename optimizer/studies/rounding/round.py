@@ -156,7 +156,7 @@ def _among(request: OptimizeRequest, every: list[Sides]) -> OptimizeRequest:
 
 
 def _on_steps(answer: OptimizeAnswer, machine: Machine, every: list[Sides]) -> OptimizeAnswer:
-    """The answer with angles on balance shafts as they were chosen: of a mirror image the last digits are lost."""
+    """The answer with the original angles on balance shafts: a mirror image loses the last digits."""
     values: dict[Path, Any] = {}
     for place, (_, angles) in zip(web_paths(machine), every, strict=True):
         if place[0] == "webs" or not answer.balance_shafts or not angles:

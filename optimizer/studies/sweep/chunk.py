@@ -52,8 +52,8 @@ def _prepared(request_json: bytes) -> tuple[SweepRequest, pa.Schema]:
 def _keep_pages() -> None:
     """Let the allocator keep what a chunk has freed for the next one.
 
-    The C library of Linux hands freed memory back page by page, and takes a fifth of a chunk's time to get it again,
-    until one block of nearly 32 MB has been freed; then it keeps up to twice that (mallopt(3), M_MMAP_THRESHOLD).
+    The C library of Linux hands freed memory back page by page, and takes a fifth of a chunk's time to get it again.
+    It stops once one block of nearly 32 MB has been freed, and keeps up to twice that (mallopt(3), M_MMAP_THRESHOLD).
     The block is never touched and so takes no memory.
     """
     np.empty(31 * 2**20, dtype=np.uint8)

@@ -1,4 +1,4 @@
-"""Columns of the counterweights of many designs of one shape: those that are optimal, and those that are given."""
+"""Columns of the counterweights of many designs of one shape: optimal ones, or those of the request."""
 
 from typing import Any
 
@@ -34,7 +34,7 @@ def optimal(request: OptimizeRequest, count: int, multipliers: bool = False) -> 
     Parameters
     ----------
     request : of columns (count,); its designs have one shape of program.
-    multipliers : whether the proofs are wanted, as text.
+    multipliers : whether rows hold their proofs, as text.
     """
     layout = laden(layout_of(request.machine), request.machine)
     turning, moving = first_order(layout)

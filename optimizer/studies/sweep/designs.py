@@ -48,7 +48,7 @@ def permuted(index: Indices, count: int, seed: int, axis: int) -> Indices:
 
     As :mod:`optimizer.numerics.kernel.permutation`.
     """
-    # the compiler is loaded when it is first needed
+    # the compiler is loaded at its first use
     from optimizer.numerics.kernel.permutation import permute
 
     bits = max((count - 1).bit_length(), _FEWEST_BITS)

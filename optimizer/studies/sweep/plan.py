@@ -61,7 +61,7 @@ class Plan:
     columns: tuple[Column, ...]
     schema: pa.Schema
     cpu_s: float
-    #: rows that are kept a second time, as far as that is known before they are selected
+    #: rows that are kept a second time; an estimate before the selection
     selected: int = 0
 
     @property
@@ -97,7 +97,7 @@ class Plan:
 
     @property
     def _bytes(self) -> int:
-        """On disk: the chunks, the rows that are selected as far as their number is known, and the request."""
+        """On disk: the chunks, the selection as far as its size is predictable, and the request."""
         rows = sum(_CELL_BYTES[column.kind] for column in self.columns)
         columns = sum(_COLUMN_BYTES + _NAMED * len(column.name.encode()) for column in self.columns)
         size = self.chunk_rows * rows + _FILE_BYTES + columns
@@ -171,7 +171,7 @@ def _seconds_per_design(request: SweepRequest) -> float:
     """Rough time of a design on one core."""
     seconds = _ROW_S + _SAMPLE_S * work_per_design(request.base, request.always, request.column_keys)
     seconds += _DETAIL_S * worked_out_alone(request)
-    # the machine as it is given is one more, for what the worst case costs
+    # the unchanged machine is one more, for what the worst case costs
     cases = 1 + len(request.base.cases) if isinstance(request.base, OptimizeRequest) else 1
     if request.over_the_turn:
         seconds += _TURN_S + _CUTS_S * curves_over_turn(request) * cases

@@ -72,7 +72,7 @@ class _Collecting:
 
     def _compare(self) -> None:
         if self._fresh:
-            # copied, so that what is no longer wanted does not stay in memory with it
+            # a copy, so that rows outside the selection leave memory
             self._best = self._selection(pa.concat_tables([self._best, *self._fresh])).combine_chunks()
             self._fresh, self._waiting = [], 0
         if self._most is not None and self._best.num_rows > self._most:

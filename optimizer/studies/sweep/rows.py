@@ -75,7 +75,7 @@ class Rows:
         self._own("message")[designs] = f"{pointer(rule.path)}: {rule.message}"
 
     def fail(self, design: int, error: Exception) -> None:
-        """A design that computing broke down for: what of it was computed before is not told."""
+        """A design whose computation failed: its row shows no figures of before the failure."""
         for name in self._blank:
             if name not in self._labels:
                 self._own(name)[design] = self._blank[name]
@@ -211,7 +211,7 @@ def _fill_or_fail(table: Rows, fill: Callable[[Designs], None], designs: Designs
 
 
 def _fill_analyzed(table: Rows, group: Group[AnalyzeRequest], designs: Designs) -> None:
-    """Rows of designs whose counterweights are given."""
+    """Rows of designs with counterweights in the request."""
     designs = _refuse(table, designs, all_rules(group.of(designs)))
     designs = _with_inputs(table, group, designs, {})
     if designs.size:

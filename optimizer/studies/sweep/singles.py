@@ -27,7 +27,7 @@ def single_optima(requests: Sequence[OptimizeRequest], multipliers: bool) -> tup
     Parameters
     ----------
     requests : of one machine with other numbers; none lacks what its objective needs.
-    multipliers : whether the proofs are wanted, as text.
+    multipliers : whether rows hold their proofs, as text.
     """
     alone = [prepare(request, ("residual",)) for request in requests]
     # a row has no column for prices and sensitivities

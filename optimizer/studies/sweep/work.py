@@ -15,7 +15,7 @@ def work_per_design(
 
     Parameters
     ----------
-    always : outputs that rows hold whether they were asked for or not.
+    always : outputs with columns in every row, whether the request names them or not.
     selection : keys of the columns that are.
     """
     groups = column_groups(request, always, selection)

@@ -59,7 +59,7 @@ def ladders(request: AccuracyRequest, answer: AccuracyAnswer) -> Iterator[Chapte
 
 
 def method_name(method: str) -> str:
-    """A method in words; one that is not known here by its own name."""
+    """A method in words; without an entry here, by its own name."""
     return _METHODS.get(method, method.replace("_", " "))
 
 

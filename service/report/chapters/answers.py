@@ -67,7 +67,7 @@ def optimized(request: OptimizeRequest, answer: OptimizeAnswer) -> Iterator[Chap
 
 
 def analyzed(request: AnalyzeRequest, answer: AnalyzeAnswer) -> Iterator[Chapter]:
-    """What the machine does without and with the counterweights that it was given."""
+    """What the machine does without and with the counterweights of the request."""
     if whole_mass(answer):
         total = facts("", [("total mass of the counterweights, kg", answer.total_mass_kg)])
         own = (*balance.workshop_blocks(request.machine, answer.counterweights), total) if answer.counterweights else ()
@@ -85,7 +85,7 @@ def analyzed(request: AnalyzeRequest, answer: AnalyzeAnswer) -> Iterator[Chapter
 
 
 def outputs(machine: Machine, answer: OutputFields, but: str | None = None) -> Iterator[Chapter]:
-    """A chapter for every output that was asked for, but for first order and stages, which have their own places.
+    """A chapter for every output of the answer, but for first order and stages, which have their own places.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""What was found: stages, counterweights, first order before and after, orders."""
+"""The result: stages, counterweights, first order before and after, orders."""
 
 import math
 from collections.abc import Iterator, Mapping, Sequence
@@ -80,7 +80,7 @@ def response_rows(answer: OptimizeAnswer, gaps: Mapping[str, float]) -> Iterator
 
     Parameters
     ----------
-    gaps : peaks by response that are not told from zero.
+    gaps : peaks by response that are not distinguishable from zero.
     """
     why = answer.infeasibility
     closest = {} if why is None else {response.response: response.peak for response in why.closest.responses}
@@ -234,7 +234,7 @@ def places(fitted: Sequence[Counterweight]) -> Table:
 def before_and_after(request: OptimizeRequest, answer: OptimizeAnswer, built: AsBuilt | None) -> Chapter:
     """First-order force and moment, what the counterweights leave, and what those that are fitted do."""
     _, left = best_set(answer)
-    # where all orders are asked for they have a chapter
+    # an answer with all orders has a chapter for them
     orders = two_orders(answer.residual.orders) if answer.orders is None else None
     filed = None if built is None else built.left
     gaps = resolutions(request, answer)
@@ -261,7 +261,7 @@ def first_order(
     label : what these are.
     beside : the second order, where it stands nowhere else.
     built : with what is fitted, if anything is.
-    gaps : peaks of force and moment that are not told from zero.
+    gaps : peaks of force and moment that are not distinguishable from zero.
     """
     scales = {"force": was.force.peak_N, "moment": was.moment.peak_Nm}
     # what a gap says of peaks it says of their parts, and not of angles

@@ -8,7 +8,7 @@ from service.report.blocks import Chapter, Paragraph, angle, table
 
 
 def balance_quality(machine: Machine, answer: OptimizeAnswer | AnalyzeAnswer) -> Iterator[Chapter]:
-    """Nothing where none is asked for."""
+    """Nothing for a machine without a grade."""
     result, demand = answer.balance_quality, machine.balance_quality
     if result is None or demand is None:
         return

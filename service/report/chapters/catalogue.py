@@ -1,4 +1,4 @@
-"""What can be asked for: outputs and effects, and lists of names."""
+"""The list of outputs and effects, and lists of names."""
 
 from collections.abc import Iterator, Sequence
 
@@ -12,7 +12,7 @@ def names(title: str, entries: Sequence[tuple[str, str]]) -> Iterator[Chapter]:
 
 
 def effects(catalogue: EffectCatalogue) -> Iterator[Chapter]:
-    """What can be asked for, and what is simulated and read for it."""
+    """Outputs and effects, each with what it simulates and reads."""
     heads = ["name", "", "needs", "inputs beyond masses and geometry"]
     for title, entries in (("Outputs", catalogue.outputs), ("Effects", catalogue.effects)):
         rows = [(entry.name, entry.meaning, ", ".join(entry.needs), ", ".join(entry.inputs)) for entry in entries]

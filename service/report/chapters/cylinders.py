@@ -1,4 +1,4 @@
-"""The cylinders that were asked for: sizes, gas, indicated pressures."""
+"""The cylinders of a design: sizes, gas, indicated pressures."""
 
 from collections.abc import Iterator
 
@@ -9,7 +9,7 @@ _ACTING = {"double": "both sides", "head": "head side", "crank": "crank side", N
 
 
 def cylinders(entries: list[tuple[str, Cylinder]]) -> Iterator[Block]:
-    """Tables of cylinders by the names that they are told by."""
+    """Tables of cylinders by name."""
     yield table(
         "Cylinders",
         [

@@ -6,7 +6,7 @@ from schemas.answer.foundation import OrderOfFoundation
 from service.report.blocks import Block, Cell, Chapter, Number, Paragraph, Table, figure_beside, prose, table
 from service.tables.foundation import oscillation, sets
 
-#: a load below this share of the largest of its kind is told in a sentence, not in a line
+#: a load below this share of the largest of its kind stands in a sentence, not in a line
 _SMALL = 1e-3
 _KILO = 1e3
 _FORCES = {"force_x": "along x", "force_y": "along y"}

@@ -1,4 +1,4 @@
-"""What was asked: the machine, the places for counterweights, the objective."""
+"""The request: the machine, the places for counterweights, the objective."""
 
 from collections.abc import Iterator, Sequence
 
@@ -60,7 +60,7 @@ def _general(machine: Machine, reference_plane_m: float) -> Table:
 
 
 def _catalogue(machine: Machine) -> Iterator[tuple[str, Cell | float]]:
-    """What counterweights are chosen from, where they are."""
+    """The options of counterweights, if they have any."""
     if not machine.discrete:
         return
     general = machine.catalogue or Catalogue()

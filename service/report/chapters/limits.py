@@ -59,7 +59,7 @@ def without_prices(request: OptimizeRequest, answer: OptimizeAnswer) -> Iterator
 
 
 def _reason(request: OptimizeRequest, proof: Certificate) -> str | None:
-    """Why nothing is told of what the limits cost, or None where it is."""
+    """Why prices of the limits are missing; None where they are there."""
     reasons = {
         "where nothing is proven": proof.gap is None,
         "of scenarios and tolerances, which have limits in every case": request.robust,

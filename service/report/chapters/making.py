@@ -9,7 +9,7 @@ from service.report.blocks import Block, table
 
 
 def holding(machine: Machine, fitted: Sequence[Counterweight]) -> Iterator[Block]:
-    """What bolts bear, where that is asked; but for plates."""
+    """Loads on bolts, if the machine has such a limit; but for plates."""
     whole = [counterweight for counterweight in fitted if counterweight.mass_kg > 0 and counterweight.shape is None]
     bolted = machine.overspeed_rpm is not None or any(web.max_centrifugal_force_N is not None for web in machine.webs)
     if whole and bolted:

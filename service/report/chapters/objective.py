@@ -1,4 +1,4 @@
-"""What was asked to be small."""
+"""The objective of the request."""
 
 from collections.abc import Iterable, Iterator
 

@@ -1,4 +1,4 @@
-"""The order for a workshop, where counterweights are chosen from sizes."""
+"""The order for a workshop, where counterweights come in sizes."""
 
 from collections.abc import Iterator
 

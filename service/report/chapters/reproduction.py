@@ -39,7 +39,7 @@ def versions() -> dict[str, str]:
 
 
 def body(request: ReportRequest) -> dict[str, Any]:
-    """The request as it was read; what is the document's own only where it is given."""
+    """The request as it was read; fields of the document only if the client wrote them."""
     result = request.model_dump(mode="json")
     return {name: value for name, value in result.items() if name not in _DOCUMENTS or name in request.model_fields_set}
 

@@ -1,4 +1,4 @@
-"""How small a first-order peak may be and still not be told from zero, by the gap of the certificate."""
+"""The largest first-order peak that still counts as zero, by the gap of the certificate."""
 
 from collections.abc import Mapping
 

@@ -125,7 +125,7 @@ def reachable(goal: Objective, why: Infeasibility) -> Iterator[Block]:
 
 
 def _of_ceiling(field: CeilingField) -> tuple[str, str]:
-    """What a ceiling is of, and the unit that it is told in."""
+    """What a ceiling limits, and its unit."""
     if field == "specific_load_ceiling_Pa":
         # two ceilings of one bearing stand side by side as loads
         return f"{_CEILINGS[field]}, times diameter and length", "N"

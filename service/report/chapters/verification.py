@@ -38,7 +38,7 @@ class Check(NamedTuple):
 
     verification: VerifyAnswer | None
     digest: str  # SHA-256 of the answer
-    outputs: tuple[str, ...]  # that it was asked for
+    outputs: tuple[str, ...]  # of the request
 
 
 def check(request: OptimizeRequest, answer: OptimizeAnswer) -> Check:

@@ -57,7 +57,7 @@ def read_shaft(document, bodies, service, densities=None, frame=None, descriptio
     ------
     Wrong
     """
-    selected = listed(bodies, densities, frame)
+    selected = selection_of(bodies, densities, frame)
     return drawn_from(document, selected, ask_shaft(service, selected.question), description, force)
 
 
@@ -69,7 +69,7 @@ class Selected(NamedTuple):
     question: dict
 
 
-def listed(bodies, densities=None, frame=None):
+def selection_of(bodies, densities=None, frame=None):
     """Faces and bodies as the service is asked about them; of steel if no density is said.
 
     Raises
@@ -103,13 +103,13 @@ def drawn_from(document, selected, answer, description=None, force=False):
     """
     bodies, densities, question = selected
     serious = doubts(question, answer, serious=True)
-    shown = tables(answer, densities[0] if len(set(densities)) == 1 else STEEL_KG_M3)
+    tables_by_name = tables(answer, densities[0] if len(set(densities)) == 1 else STEEL_KG_M3)
     if description is not None:
         serious += unlike(answer["throws"], description.get("machine", {}).get("throws", ()))
     if serious and not force:
         raise Wrong([f"not the shaft that it seems to be: {line}" for line in serious])
     if description is not None:
-        shown = completed(shown, description)
+        tables_by_name = completed(tables_by_name, description)
     with change(document, "Read shaft"):
         machine = document.addObject("App::FeaturePython", "Machine")
         Machine(machine)
@@ -117,7 +117,7 @@ def drawn_from(document, selected, answer, description=None, force=False):
         machine.Densities, machine.Doubts = densities, serious + doubts(question, answer, serious=False)
         machine.Forced = "; ".join(serious)
         sheets = []
-        for name, lines in shown.items():
+        for name, lines in tables_by_name.items():
             sheet = document.addObject("Spreadsheet::Sheet", name)
             sheet.Label = name
             write(sheet, lines)
@@ -176,18 +176,18 @@ def draw(machine, question, answer):
     """
     document, request = machine.Document, question.body
     with change(document, "Balance"):
-        drawn = {weight.Web: weight for weight in machine.Counterweights}
+        solids = {weight.Web: weight for weight in machine.Counterweights}
         heaviest = max((counterweight["mass_kg"] for counterweight in answer["counterweights"]), default=0.0)
         webs = {web["name"]: web for web in request["machine"]["webs"]}
         weights = []
         for weight in answer["counterweights"]:
             if weight["mass_kg"] > _NOTHING * heaviest:
-                made = drawn.pop(weight["web"], None) or _new(document, weight["web"])
-                _ask_for(made, machine, webs[weight["web"]], weight)
-                weights.append(made)
+                solid = solids.pop(weight["web"], None) or _new(document, weight["web"])
+                _ask_for(solid, machine, webs[weight["web"]], weight)
+                weights.append(solid)
         machine.Counterweights = weights
         machine.Request, machine.Answer = json.dumps(request), json.dumps(answer)
-        for weight in drawn.values():
+        for weight in solids.values():
             document.removeObject(weight.Name)
         document.recompute()
         failed = [weight.Label for weight in weights if "Invalid" in weight.State]
@@ -210,29 +210,29 @@ def verify(machine):
         raise Wrong(["there is no answer yet: balance first"])
     now = request_of(machine).body["machine"]
     shaft = shaft_moments(machine)
-    first, *others = shaft.values()
+    first, *remainder = shaft.values()
     try:
-        result = verdict(now, json.loads(machine.Answer), sum(others, first), weight_moments(machine))
+        result = verdict(now, json.loads(machine.Answer), sum(remainder, first), weight_moments(machine))
     except KeyError as missing:
         raise Wrong([f"the tables no longer say {missing}"]) from None
     return replace(result, notes=(f"FORCED in spite of: {machine.Forced}",)) if machine.Forced else result
 
 
 def _new(document, web):
-    made = document.addObject("Part::FeaturePython", "Counterweight")
-    Counterweight(made)
-    made.Label = f"Counterweight {web}"
-    if getattr(made, "ViewObject", None) is not None:
+    solid = document.addObject("Part::FeaturePython", "Counterweight")
+    Counterweight(solid)
+    solid.Label = f"Counterweight {web}"
+    if getattr(solid, "ViewObject", None) is not None:
         # shown as any other solid
-        made.ViewObject.Proxy = 0
-    return made
+        solid.ViewObject.Proxy = 0
+    return solid
 
 
-def _ask_for(made, machine, web, counterweight):
+def _ask_for(solid, machine, web, counterweight):
     plate = Plate.of(web["envelope"])
-    made.Web, made.Outline, made.Frame = web["name"], plate.shape, machine.Frame
-    made.InnerRadius, made.OuterRadius = plate.inner_m / MM, plate.outer_m / MM
-    made.Thickness, made.Density = plate.thickness_m / MM, plate.density_kg_m3
-    made.LargestHalfAngle = web["envelope"].get("max_half_angle_deg", 90.0)
-    made.Position = web["position_m"] / MM
-    made.AskedUnbalance, made.AskedAngle = counterweight["mass_radius_kg_m"], counterweight["angle_deg"]
+    solid.Web, solid.Outline, solid.Frame = web["name"], plate.shape, machine.Frame
+    solid.InnerRadius, solid.OuterRadius = plate.inner_m / MM, plate.outer_m / MM
+    solid.Thickness, solid.Density = plate.thickness_m / MM, plate.density_kg_m3
+    solid.LargestHalfAngle = web["envelope"].get("max_half_angle_deg", 90.0)
+    solid.Position = web["position_m"] / MM
+    solid.AskedUnbalance, solid.AskedAngle = counterweight["mass_radius_kg_m"], counterweight["angle_deg"]

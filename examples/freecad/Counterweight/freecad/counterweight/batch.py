@@ -56,15 +56,15 @@ def _balanced(shaft, machine, folder):
     bodies = [body for body in document.RootObjects if getattr(body, "Shape", None) is not None and body.Shape.Solids]
     service = service_at(os.environ.get("COUNTERWEIGHT_URL") or url())
     force = forced()
-    made = read_shaft(document, bodies, service, [density] * len(bodies), description=description, force=force)
-    yield from (f"to look at: {line}" for line in made.Doubts)
-    yield shaft_words(made)
-    yield from balance(made, service, force).words()
-    in_the_way = clearance(made)
+    model = read_shaft(document, bodies, service, [density] * len(bodies), description=description, force=force)
+    yield from (f"to look at: {line}" for line in model.Doubts)
+    yield shaft_words(model)
+    yield from balance(model, service, force).words()
+    in_the_way = clearance(model)
     if in_the_way:
         raise Wrong(in_the_way)
     yield "nothing of the shaft is in the way of the counterweights"
-    for path in export(made, folder, service):
+    for path in export(model, folder, service):
         yield str(path)
     document.saveAs(str(folder / "balanced.FCStd"))
 

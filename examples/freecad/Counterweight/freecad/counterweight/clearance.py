@@ -13,7 +13,7 @@ import Part
 from .faces import inside
 from .features import request_of
 from .sheets import Wrong
-from .solids import MM, seen, shape_of
+from .solids import MM, in_frame, shape_of
 
 #: positions of a rod over a turn
 STEPS = 72
@@ -40,7 +40,7 @@ def clearance(machine):
         ring = _ring(weight, shape.BoundBox, room)
         for body in machine.Obstacles:
             words = f"within {room:g} mm of its way"
-            lines += _overlap_line(weight, body, words, _overlap(ring, seen(body, machine.Frame)))
+            lines += _overlap_line(weight, body, words, _overlap(ring, in_frame(body, machine.Frame)))
         grown = shape.makeOffsetShape(room, 1e-3, join=2) if room else shape
         for rod in rods:
             volume, angle = rod.worst(grown)
@@ -86,7 +86,7 @@ def _rods(machine):
         if not bodies:
             raise Wrong([f"rows: rod: there is no body {label!r}"])
         throw = question.body["machine"]["throws"][number]
-        yield _Rod(bodies[0], seen(bodies[0], machine.Frame), throw, throw["rows"][place])
+        yield _Rod(bodies[0], in_frame(bodies[0], machine.Frame), throw, throw["rows"][place])
 
 
 class _Rod:
@@ -117,10 +117,10 @@ class _Rod:
         box = self._shape.BoundBox
         if box.ZMin > grown.BoundBox.ZMax or box.ZMax < grown.BoundBox.ZMin:
             return 0.0
-        turned = self._shape.copy()
+        copy = self._shape.copy()
         angle = radians(angle_deg)
-        turned.rotate(self._pin, App.Vector(0, 0, 1), degrees(self._swing(angle) - angle - self._swing(0.0)))
-        return _overlap(grown, turned)
+        copy.rotate(self._pin, App.Vector(0, 0, 1), degrees(self._swing(angle) - angle - self._swing(0.0)))
+        return _overlap(grown, copy)
 
     def _swing(self, angle):
         """Direction from pin to crosshead."""

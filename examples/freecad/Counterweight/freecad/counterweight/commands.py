@@ -10,7 +10,7 @@ import FreeCADGui as Gui
 from PySide import QtCore, QtGui
 
 from .asking import KEY, ask, forced, service_at
-from .balance import draw, drawn_from, listed, question_of, shaft_words, verify
+from .balance import draw, drawn_from, question_of, selection_of, shaft_words, verify
 from .clearance import clearance, overlaps
 from .export import export
 from .panel import Result, Shaft, show
@@ -56,8 +56,8 @@ def tell(lines):
 
 def _machine():
     """The machine that is selected, or the only one."""
-    chosen = [machine for machine in Gui.Selection.getSelection() if hasattr(machine, "Shaft")]
-    every = chosen or [machine for machine in App.ActiveDocument.Objects if hasattr(machine, "Shaft")]
+    selection = [machine for machine in Gui.Selection.getSelection() if hasattr(machine, "Shaft")]
+    every = selection or [machine for machine in App.ActiveDocument.Objects if hasattr(machine, "Shaft")]
     if len(every) != 1:
         raise Wrong([f"{len(every)} machines: select one, or read the shaft first"])
     return every[0]
@@ -65,13 +65,13 @@ def _machine():
 
 def _read():
     bodies = [body for body in Gui.Selection.getSelection() if getattr(body, "Shape", None) and body.Shape.Faces]
-    document, selected, service = App.ActiveDocument.Name, listed(bodies), _service()
+    document, selected, service = App.ActiveDocument.Name, selection_of(bodies), _service()
 
-    def drawn(answer):
+    def on_answer(answer):
         machine = drawn_from(App.getDocument(document), selected, answer, force=forced())
         show(Shaft(machine))
 
-    _beside(lambda: ask_shaft(service, selected.question), drawn)
+    _beside(lambda: ask_shaft(service, selected.question), on_answer)
 
 
 # ---- asking
@@ -100,7 +100,7 @@ def _beside(question, then):
     """Ask in a thread of its own, and go on with the answer in the window's."""
     asking = _Asking(question)
 
-    def done():
+    def on_finish():
         _RUNNING.discard(asking)
         try:
             if asking.wrong is not None:
@@ -112,7 +112,7 @@ def _beside(question, then):
             # closed or deleted while the service was asked
             complain(Wrong(["the document or the machine is gone: nothing was drawn"]))
 
-    asking.finished.connect(done)
+    asking.finished.connect(on_finish)
     _RUNNING.add(asking)
     asking.start()
 
@@ -125,12 +125,12 @@ def _balance(machine):
     question, service = question_of(machine, forced()), _service()
     document, name = machine.Document.Name, machine.Name
 
-    def drawn(answer):
+    def on_answer(answer):
         machine = App.getDocument(document).getObject(name)
         _result(draw(machine, question, answer).words())
         complain(Wrong(overlaps(machine)))
 
-    _beside(lambda: ask(service, question), drawn)
+    _beside(lambda: ask(service, question), on_answer)
 
 
 def _result(words):

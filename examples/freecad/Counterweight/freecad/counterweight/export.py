@@ -33,14 +33,14 @@ def export(machine, folder, service):
     try:
         target.mkdir(parents=True, exist_ok=True)
         Import.export([*machine.Shaft, *machine.Counterweights], str(target / "balanced.step"))
-        drawn = service.drawings(_drawing_request(machine), target / "counterweights.zip")
-        with ZipFile(drawn) as archive:
+        package = service.drawings(_drawing_request(machine), target / "counterweights.zip")
+        with ZipFile(package) as archive:
             archive.extractall(target)
     except Refused as refused:
         raise Wrong([str(refused)]) from None
     except OSError as error:
         raise Wrong([f"not exported: {error}"]) from None
-    drawn.unlink()
+    package.unlink()
     return sorted(target.iterdir())
 
 

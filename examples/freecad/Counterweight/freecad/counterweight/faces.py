@@ -14,14 +14,14 @@ _ROUND = 1e-9
 
 def inside(shape, frame):
     """The shape as seen from a frame."""
-    seen = shape.copy()
-    seen.Placement = frame.inverse().multiply(seen.Placement)
-    return seen
+    copy = shape.copy()
+    copy.Placement = frame.inverse().multiply(copy.Placement)
+    return copy
 
 
 def faces_of(shape, label):
     """Every face of a shape, in the coordinates of the document."""
-    return [_listed(face, f"{label}.Face{number}"[-64:]) for number, face in enumerate(shape.Faces, start=1)]
+    return [_fields(face, f"{label}.Face{number}"[-64:]) for number, face in enumerate(shape.Faces, start=1)]
 
 
 def body_of(shape, label, density_kg_m3):
@@ -47,7 +47,7 @@ def body_of(shape, label, density_kg_m3):
     }
 
 
-def _listed(face, name):
+def _fields(face, name):
     surface = face.Surface
     u0, u1, v0, v1 = face.ParameterRange
     if isinstance(surface, Part.Cylinder):

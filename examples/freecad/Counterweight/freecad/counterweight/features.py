@@ -12,7 +12,7 @@ from .moments import Moments
 from .plate import SHAPES, Plate
 from .plausible import Piece, Sizes
 from .sheets import Wrong, from_tables
-from .solids import MM, extruded, moments, seen
+from .solids import MM, extruded, in_frame, moments
 from .tables import table_of
 
 
@@ -50,14 +50,14 @@ class Machine(_Proxy):
         ("App::PropertyString", "Forced", "why it should not have been balanced, and was"),
     )
 
-    def __init__(self, made):
-        _add(made, self.PROPERTIES)
-        made.Clearance = 5.0
+    def __init__(self, feature):
+        _add(feature, self.PROPERTIES)
+        feature.Clearance = 5.0
         for name in ("Request", "Answer"):
-            made.setEditorMode(name, 2)
+            feature.setEditorMode(name, 2)
         for name in ("Status", "Doubts", "Confirmed", "Forced"):
-            made.setEditorMode(name, 1)
-        made.Proxy = self
+            feature.setEditorMode(name, 1)
+        feature.Proxy = self
 
     def execute(self, machine):
         machine.Status = status(machine)
@@ -83,36 +83,36 @@ class Counterweight(_Proxy):
         ("App::PropertyFloat", "Unbalance", "of the solid, kg m"),
     )
 
-    def __init__(self, made):
-        _add(made, self.PROPERTIES)
-        made.Outline = list(SHAPES)
+    def __init__(self, feature):
+        _add(feature, self.PROPERTIES)
+        feature.Outline = list(SHAPES)
         for name in ("HalfAngle", "Mass", "Unbalance"):
-            made.setEditorMode(name, 1)
-        made.Proxy = self
+            feature.setEditorMode(name, 1)
+        feature.Proxy = self
 
-    def execute(self, made):
+    def execute(self, feature):
         plate = Plate(
-            made.Outline,
-            made.InnerRadius.Value * MM,
-            made.OuterRadius.Value * MM,
-            made.Thickness.Value * MM,
-            made.Density,
-            radians(made.LargestHalfAngle.Value),
+            feature.Outline,
+            feature.InnerRadius.Value * MM,
+            feature.OuterRadius.Value * MM,
+            feature.Thickness.Value * MM,
+            feature.Density,
+            radians(feature.LargestHalfAngle.Value),
         )
-        half = plate.half(made.AskedUnbalance)
-        shape = extruded(plate.outline(half, radians(made.AskedAngle.Value)), made.Thickness.Value)
-        along = App.Placement(App.Vector(0, 0, made.Position.Value), App.Rotation())
-        placement = made.Frame.multiply(along)
+        half = plate.half(feature.AskedUnbalance)
+        shape = extruded(plate.outline(half, radians(feature.AskedAngle.Value)), feature.Thickness.Value)
+        along = App.Placement(App.Vector(0, 0, feature.Position.Value), App.Rotation())
+        placement = feature.Frame.multiply(along)
         shape.Placement = placement
-        made.Shape, made.Placement = shape, placement
-        result = moments(inside(shape, made.Frame), made.Density)
-        made.HalfAngle, made.Mass, made.Unbalance = degrees(half), result.mass_kg, abs(result.static_kg_m)
+        feature.Shape, feature.Placement = shape, placement
+        result = moments(inside(shape, feature.Frame), feature.Density)
+        feature.HalfAngle, feature.Mass, feature.Unbalance = degrees(half), result.mass_kg, abs(result.static_kg_m)
 
 
-def _add(made, properties):
+def _add(feature, properties):
     for kind, name, words in properties:
-        if not hasattr(made, name):
-            made.addProperty(kind, name, "Counterweight", words)
+        if not hasattr(feature, name):
+            feature.addProperty(kind, name, "Counterweight", words)
 
 
 # ---- what a machine says now
@@ -120,7 +120,7 @@ def _add(made, properties):
 
 def sizes(machine):
     """Bodies and length of the shaft as its solids are."""
-    shapes = [seen(body, machine.Frame) for body in machine.Shaft]
+    shapes = [in_frame(body, machine.Frame) for body in machine.Shaft]
     pieces = tuple(
         Piece(body.Label, sum(solid.Volume for solid in shape.Solids) * MM**3, density)
         for body, shape, density in zip(machine.Shaft, shapes, machine.Densities)
@@ -134,7 +134,7 @@ def shaft_moments(machine):
     if len(machine.Densities) != len(machine.Shaft):
         raise Wrong(["Densities: one for each body of the shaft"])
     return {
-        body.Label: moments(seen(body, machine.Frame), density)
+        body.Label: moments(in_frame(body, machine.Frame), density)
         for body, density in zip(machine.Shaft, machine.Densities)
     }
 
@@ -155,7 +155,7 @@ def request_of(machine):
     Wrong
     """
     question = from_tables({sheet.Label: table_of(sheet) for sheet in machine.Tables})
-    boxes = [seen(body, machine.Frame).BoundBox for body in machine.Shaft]
+    boxes = [in_frame(body, machine.Frame).BoundBox for body in machine.Shaft]
     low, high = min(box.ZMin for box in boxes) * MM, max(box.ZMax for box in boxes) * MM
     question.body["machine"]["unbalances"] = [
         unbalance

@@ -73,11 +73,11 @@ class Result:
     """The verdict in a bold line, and what stands behind it."""
 
     def __init__(self, words):
-        headline, *others = words
+        headline, *details = words
         self.form = QtGui.QWidget()
         self.form.setWindowTitle(translate("Counterweight", "Verdict"))
         layout = QtGui.QVBoxLayout(self.form)
-        for text in (f"<b>{escape(headline)}</b>", "<br>".join(map(escape, others))):
+        for text in (f"<b>{escape(headline)}</b>", "<br>".join(map(escape, details))):
             label = QtGui.QLabel(text)
             label.setWordWrap(True)
             layout.addWidget(label)

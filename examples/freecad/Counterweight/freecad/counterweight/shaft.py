@@ -43,8 +43,8 @@ def place(question: Mapping[str, Any], pointer: str) -> str:
 
 def doubts(question: Mapping[str, Any], answer: Mapping[str, Any], serious: bool) -> List[str]:
     """What the designer should look at, in words; or what has to be corrected first."""
-    chosen = (doubt for doubt in answer["doubts"] if doubt["serious"] == serious)
-    return [f"{place(question, entry['pointer'])}: {entry['message']}" for entry in chosen]
+    doubts = (doubt for doubt in answer["doubts"] if doubt["serious"] == serious)
+    return [f"{place(question, entry['pointer'])}: {entry['message']}" for entry in doubts]
 
 
 def tables(answer: Mapping[str, Any], density_kg_m3: float) -> Dict[str, Table]:

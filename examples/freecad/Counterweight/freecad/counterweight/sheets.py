@@ -193,23 +193,23 @@ def completed(tables: Mapping[str, Table], description: Mapping[str, Any]) -> Di
     machine = dict(description.get("machine", {}))
     throws, webs = [dict(throw) for throw in machine.pop(THROWS, [])], machine.pop(WEBS, [])
     lines = [throw.pop(ROWS, []) for throw in throws]
-    merged = _merged(THROWS, tables[THROWS], throws)
-    names = merged[0].index("name")
-    rows = [{THROW: line[names], **flat(row)} for line, on in zip(merged[1:], lines) for row in on]
+    throw_table = _with_fields(THROWS, tables[THROWS], throws)
+    names = throw_table[0].index("name")
+    rows = [{THROW: line[names], **flat(row)} for line, on in zip(throw_table[1:], lines) for row in on]
     heads = list(dict.fromkeys([THROW, *(name for row in rows for name in row)]))
     fields = flat({**description, "machine": machine})
     return {
         MACHINE: [["field", "value"], *([name, value] for name, value in fields.items())],
-        THROWS: merged,
+        THROWS: throw_table,
         ROWS: table(heads, rows),
-        WEBS: _merged(WEBS, tables[WEBS], webs) if webs else tables[WEBS],
+        WEBS: _with_fields(WEBS, tables[WEBS], webs) if webs else tables[WEBS],
     }
 
 
-def _merged(sheet: str, shown: Table, description: Sequence[Mapping[str, Any]]) -> Table:
+def _with_fields(sheet: str, sheet_table: Table, description: Sequence[Mapping[str, Any]]) -> Table:
     """A table with what is said besides, line by line; what is doubtful does not count."""
-    heads = [str(head) for head in shown[0]]
-    lines = [line for line in (dict(zip(heads, line)) for line in shown[1:]) if line.get(USE) != "no"]
+    heads = [str(head) for head in sheet_table[0]]
+    lines = [line for line in (dict(zip(heads, line)) for line in sheet_table[1:]) if line.get(USE) != "no"]
     if len(description) != len(lines):
         raise Wrong([f"{sheet}: the faces show {len(lines)}, {len(description)} are described"])
     for line, more in zip(lines, description):

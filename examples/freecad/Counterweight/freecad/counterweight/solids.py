@@ -20,7 +20,7 @@ def shape_of(body):
     return shape
 
 
-def seen(body, frame):
+def in_frame(body, frame):
     """The shape of a body as seen from the shaft's frame."""
     return inside(shape_of(body), frame)
 
