@@ -131,7 +131,8 @@ def _apart(nodes: Real, share: float = _SAME, lighter: float = 0.0) -> Real:
     lighter : share of its mass by which a plate may be heavier than tangents at nodes that are one. Such nodes are the
         nearer where it is all but closed, and towards the largest half-angle, where the lever may vanish.
     """
-    inside = nodes[1:-1]
+    # an interpolation may round to beyond its end
+    inside = np.minimum(nodes[1:-1], nodes[-1])
     rest = nodes[-1] - inside
     near = np.maximum(share * nodes[-1], np.sqrt(lighter) * np.minimum(inside, np.sqrt(rest * nodes[-1])))
     inside = np.where((inside - nodes[:-2] > near) & (rest > near), inside, 0.0)

@@ -8,6 +8,7 @@ import pytest
 from optimizer import optimize
 from schemas.request.requests import OptimizeRequest
 from service.documents.examples import bodies
+from tests.builders import machine, row, throw, web
 
 
 def _with_shaft(example: str, speed_ratio: int) -> dict[str, Any]:
@@ -55,6 +56,20 @@ def test_a_machine_that_balances_itself_needs_no_shaft(example: str, speed_ratio
         *(counterweight for shaft in answer.balance_shafts for counterweight in shaft.counterweights),
     ]
     assert [web.mass_kg for web in webs] == [0.0] * len(webs)
+
+
+@pytest.mark.parametrize("measure", ["peak", "rms"])
+def test_bearings_that_opposed_pistons_do_not_load_are_balanced(measure: str) -> None:
+    """Analytic: two equal rows in one plane, opposed, load their bearings with what rounding leaves."""
+    throws = [throw(angle, row(angle, length_m=0.5), rotating_kg=2.0) for angle in (33.0, 213.0)]
+    bearings = [{"name": name, "position_m": place} for name, place in (("a", -0.35), ("b", 0.1), ("c", 0.35))]
+    webs = [web(name, place) for name, place in (("1", -0.2), ("2", 0.2))]
+    goal = {"force_weight": 0.0, "moment_weight": 0.0, "bearing_weight": 1.0, "bearing_measure": measure}
+    answer = optimize(OptimizeRequest(machine=machine(*throws, webs=webs, bearings=bearings), objective=goal))
+    assert answer.status == "optimal", answer.status_reason
+    assert answer.certificate is not None
+    assert (answer.certificate.objective, answer.certificate.relative_gap) == (0.0, 0.0)
+    assert [counterweight.mass_kg for counterweight in answer.counterweights] == [0.0, 0.0]
 
 
 def test_the_best_of_many_optima_is_kept_while_rounds_wander() -> None:

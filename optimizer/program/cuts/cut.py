@@ -20,6 +20,8 @@ from optimizer.responses.curve import TurnResponse
 _ALIKE = 1e-12
 #: cuts of a quantity that are kept from one round to the next
 _MOST_CUTS = 16
+#: share of what is added up in a curve at which it has cancelled
+DUST = 1e-13
 
 
 class Scatter(NamedTuple):
@@ -80,9 +82,27 @@ class Quantity:
         return self.response.name
 
     @cached_property
+    def nothing(self) -> bool:
+        """Whether the root mean square of the curve is what rounding leaves of all that is added up in it."""
+        response = self.response
+        size = float(response.curves.pieces.size[response.number])
+        rms = np.hypot(abs(response.mean), np.sqrt(response.variance))
+        return not self.masses > 0.0 and not rms > DUST * size
+
+    @property
+    def mean(self) -> complex:
+        """Mean of the curve over the turn."""
+        return 0j if self.nothing else self.response.mean
+
+    @cached_property
     def spread(self) -> float:
         """sqrt(V), what the root mean square comes to at least, but for its error."""
-        return float(np.sqrt(self.response.variance))
+        return 0.0 if self.nothing else float(np.sqrt(self.response.variance))
+
+    @property
+    def rms_error(self) -> float:
+        """What the root mean square may be off by; of a curve that has cancelled nothing is left to be off."""
+        return 0.0 if self.nothing else self.response.rms_error
 
     def cut(self, angle: float, value: complex) -> Cut:
         """The cut of the peak at an angle [rad], where the curve has a value."""
@@ -122,11 +142,11 @@ class Quantity:
 
         Both errors are within those of mean and variance.
         """
-        mean, influence = self.response.mean, self.response.influence
+        mean, influence = self.mean, self.response.influence
         along_mean = abs(mean + self.response.offset(u)) + scatter.of(influence, u)
         value = float(np.hypot(along_mean, self.spread))
         along, across = (along_mean / value, self.spread / value) if value > 0 else (1.0, 0.0)
-        off = self.response.rms_error
+        off = self.rms_error
         cut = Cut(along * mean, along * influence, across * self.spread - off, share=along)
         return Evaluation(value - off, value + off, cut)
 

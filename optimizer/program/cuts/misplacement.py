@@ -59,8 +59,8 @@ def _no_less(quantity: Quantity, u: Complex, reached: Evaluation, cancelled: boo
     change, size, _ = kind
     response = quantity.response
     if quantity.measure == "rms":
-        mean = Norms(np.array([response.mean]), response.influence[None])
-        return float(np.hypot(size(mean)[0], quantity.spread)) + response.rms_error
+        mean = Norms(np.array([quantity.mean]), response.influence[None])
+        return float(np.hypot(size(mean)[0], quantity.spread)) + quantity.rms_error
     if cancelled and response.turning is None:
         return max(float(size(Norms(np.zeros(1, complex), response.influence[None]))[0]), reached.upper)
     return reached.upper + change * float(np.sum(np.abs(response.influence * u)))

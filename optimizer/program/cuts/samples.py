@@ -14,7 +14,7 @@ import numpy as np
 
 from optimizer.numerics.arrays import Complex, Real
 from optimizer.numerics.enclosing_circle import smallest_circle
-from optimizer.program.cuts.cut import Cut, Evaluation, Quantity, Scatter
+from optimizer.program.cuts.cut import DUST, Cut, Evaluation, Quantity, Scatter
 from optimizer.responses.boxes import worst_masses
 from optimizer.responses.curve import TurnResponse
 from optimizer.responses.piecewise_cubics import Index
@@ -31,8 +31,6 @@ _BETWEEN = float(_PLACES[1] - _PLACES[0])
 _BESIDE = np.arange(-1, 2)
 #: distance of places, as a share of that, for the second search about a vertex
 _CLOSER = 0.0625
-#: share of what is added up at which it has cancelled
-_DUST = 1e-13
 #: largest number of local maxima that a curve returns
 _MOST = 4
 #: share by which a curve may be above what its cubic shows
@@ -74,7 +72,7 @@ class _Curves:
         self.angle = self.centre[:, None] + self.half[:, None] * _PLACES
         values = pieces.cubic[self.number[:, None], self.piece] @ _POWERS[:4]
         size = pieces.size[self.number]
-        self.nothing = ~(np.max(np.abs(values), axis=(-2, -1)) > _DUST * size)
+        self.nothing = ~(np.max(np.abs(values), axis=(-2, -1)) > DUST * size)
         steep = np.any(pieces.rest[self.number[:, None], self.piece] > _STEEP * size[:, None], axis=0)
         if np.any(steep):
             there = responses[0].curves.at(self.angle[steep].ravel())[self.number]
@@ -192,7 +190,7 @@ class Samples:
         cuts: list[list[Cut]] = [[] for _ in self.quantities]
         for q, quantity in enumerate(self.quantities):
             if quantity.measure == "rms":
-                mean, off, influence = quantity.response.mean, quantity.response.rms_error, quantity.response.influence
+                mean, off, influence = quantity.mean, quantity.rms_error, quantity.response.influence
                 cuts[q] = [
                     Cut(0j, 0.0 * influence, quantity.spread - off, share=0.0),
                     Cut(mean, influence, -off, share=1.0),
