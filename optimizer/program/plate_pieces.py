@@ -132,7 +132,8 @@ def _apart(nodes: Real, share: float = _SAME, lighter: float = 0.0) -> Real:
         nearer where it is all but closed, and towards the largest half-angle, where the lever may vanish.
     """
     inside = nodes[1:-1]
-    rest = nodes[-1] - inside
+    # one laid up to the largest may be above it by rounding
+    rest = np.maximum(nodes[-1] - inside, 0.0)
     near = np.maximum(share * nodes[-1], np.sqrt(lighter) * np.minimum(inside, np.sqrt(rest * nodes[-1])))
     inside = np.where((inside - nodes[:-2] > near) & (rest > near), inside, 0.0)
     return np.concatenate([nodes[:1], np.maximum.accumulate(inside, axis=0), nodes[-1:]])
