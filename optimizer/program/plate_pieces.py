@@ -131,9 +131,9 @@ def _apart(nodes: Real, share: float = _SAME, lighter: float = 0.0) -> Real:
     lighter : share of its mass by which a plate may be heavier than tangents at nodes that are one. Such nodes are the
         nearer where it is all but closed, and towards the largest half-angle, where the lever may vanish.
     """
-    # an interpolation may round to beyond its end
-    inside = np.minimum(nodes[1:-1], nodes[-1])
-    rest = nodes[-1] - inside
+    inside = nodes[1:-1]
+    # one laid up to the largest may be above it by rounding
+    rest = np.maximum(nodes[-1] - inside, 0.0)
     near = np.maximum(share * nodes[-1], np.sqrt(lighter) * np.minimum(inside, np.sqrt(rest * nodes[-1])))
     inside = np.where((inside - nodes[:-2] > near) & (rest > near), inside, 0.0)
     return np.concatenate([nodes[:1], np.maximum.accumulate(inside, axis=0), nodes[-1:]])

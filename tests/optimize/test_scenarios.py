@@ -9,6 +9,8 @@ from hypothesis import strategies as st
 from pydantic import ValidationError
 
 from optimizer.errors import MissingInput
+from optimizer.program.kernel.finer_numbers import Precision
+from optimizer.program.methods import compiled
 from schemas.answer.answers import OptimizeAnswer
 from schemas.front.pareto import ParetoRequest
 from schemas.request.accuracy import AccuracyRequest
@@ -179,6 +181,40 @@ def test_scenarios_that_are_none_are_refused_by_name(scenarios: list[dict[str, A
         for problem in ([program.path for program in error.get("ctx", {}).get("problems", [])] or [()])
     }
     assert any(f"scenarios/{pointer}" in text for text in texts), texts
+
+
+def test_scenarios_that_decide_nothing_cost_no_finer_numbers(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Property: of ten scenarios of 1e-9 to 1e12 times a mass those alone are solved in 50 digits that may decide."""
+    norms, own = list[int](), compiled.solve_in
+
+    def counted(precision: Precision) -> Any:
+        def solved(data: Any, *rest: Any) -> Any:
+            norms.append(data.row.size)
+            return own(precision)(data, *rest)
+
+        return solved
+
+    monkeypatch.setattr(compiled, "solve_in", counted)
+    rng, design = np.random.default_rng(148), random_machine(28)
+    scenarios = []
+    for n in range(int(rng.integers(8, 32))):
+        t = int(rng.integers(len(design["throws"])))
+        rows = design["throws"][t]["rows"]
+        r = int(rng.integers(len(rows))) if rows else 0
+        mass = rows[r]["reciprocating_mass_kg"] if rows else design["throws"][t]["rotating_mass_kg"]
+        path = f"throws__{t}__rows__{r}__reciprocating_mass_kg" if rows else f"throws__{t}__rotating_mass_kg"
+        factor = 10.0 ** float(rng.choice([0, 3, 6, 9, 12, -9]))
+        weight = float(rng.choice([1, 1e-9, 1e6, 0.5]))
+        scenarios.append(scenario(f"s{n}", weight, **{path: mass * factor}))
+    for web_of in design["webs"] if rng.integers(2) else ():
+        if rng.integers(2):
+            web_of["max_mass_kg"] = None
+    goal = {"combine": "max", "direction_weights": {"x": 1.0, "y": 0.3}}
+    answer = answered(design, objective=goal, scenarios=scenarios)
+    assert answer.status == "optimal"
+    # all have 40, which takes 14 s
+    assert norms
+    assert max(norms) <= 8
 
 
 def test_scenarios_go_with_sweeps_fronts_and_the_ladder() -> None:

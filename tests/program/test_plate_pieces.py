@@ -11,6 +11,7 @@ from optimizer.numerics.arrays import Real
 from optimizer.program.methods.plate_sizes import CutWeights, equal_sizes
 from optimizer.program.plate_pieces import (
     Webs,
+    _apart,
     closer_nodes,
     first_nodes,
     nodes_about,
@@ -168,6 +169,12 @@ def test_nodes_that_were_there_stay() -> None:
         nodes = nodes_about(PLATES, nodes, u, 1e-7)
     assert len(nodes) <= 42
     assert np.all(np.diff(nodes, axis=0) >= 0.0)
+
+
+def test_a_node_above_the_largest_by_rounding_is_the_largest() -> None:
+    most = PLATES.most
+    nodes = np.array([0.0 * most, 0.5 * most, np.nextafter(most, np.inf), most])
+    assert np.all(_apart(nodes, lighter=1e-7)[1:] == np.array([0.5 * most, 0.5 * most, most]))
 
 
 def test_a_plate_without_room_is_no_piece() -> None:

@@ -11,15 +11,22 @@ from optimizer.formulation.task import Task
 from optimizer.mechanics.inertia import reciprocating, rotating
 from optimizer.mechanics.layout import layout
 from optimizer.program.certificate import mass_lower_bound, objective_lower_bound
+from optimizer.program.kernel.finer_numbers import FIFTY_DIGITS
+from optimizer.program.methods.cascade import _in_finer_numbers
 from optimizer.program.methods.compiled import stage_solutions
-from optimizer.program.methods.inactive_rows import settle_without_slack_rows
-from optimizer.program.solution import INTERIOR_POINT
+from optimizer.program.methods.inactive_rows import ActiveRows, near_rows, settle_without_slack_rows
+from optimizer.program.methods.single import Target, interior_point
+from optimizer.program.rows import combined, statement, weighted_peak
+from optimizer.program.solution import INTERIOR_POINT, evaluated
+from optimizer.program.statement import Statement
 from optimizer.program.verdict import yardstick
+from optimizer.responses.response import Phasors, Response
 from optimizer.solve.certify import certified
 from schemas.base.rules import Path
 from schemas.base.variation import with_fields
 from schemas.request.objective import Objective
 from schemas.request.requests import OptimizeRequest
+from tests.studies.accuracy.problems import free_limits
 
 THROWS, ORDERS = 9, 120
 
@@ -72,3 +79,40 @@ def test_least_masses_of_even_layouts_are_proven_without_another_solver(most: fl
     proven = mass_lower_bound(program, stages.mass_multipliers, stages.mass_target)
     assert proven == pytest.approx(stages.mass_lower_bound, rel=1e-12)
     assert np.all(program.objective(stages.unbalance) <= stages.lower_bound + share * (1 + 1e-9))
+
+
+def _two_rows() -> Statement:
+    """The larger of |10 u - 10| and |u + 3|, of one web that reaches 2 kg m."""
+    peaks = [
+        weighted_peak(Response(name, "N", Phasors(np.asarray(co + 0j), np.asarray(0j)), np.array([influence])), 1.0)
+        for name, co, influence in (("steep", -10.0, 10.0), ("flat", 3.0, 1.0))
+    ]
+    return statement(combined(peaks, "max"), [], free_limits([2.0]))
+
+
+@pytest.mark.parametrize("u", [-1.0, 0.9, 7 / 11, -3.0])
+def test_a_row_that_becomes_the_largest_is_taken_back(u: float) -> None:
+    """Analytic: both rows are 40/11 at u = 7/11, wherever rows were left out first."""
+    program, target = _two_rows(), Target(1e-6, 1e-6, False)
+    begun = evaluated(program, np.array([u + 0j]))
+    best = _in_finer_numbers(program, target, begun, FIFTY_DIGITS, None)
+    assert best.objective == pytest.approx(40 / 11, rel=1e-6)
+    assert best.lower_bound == pytest.approx(40 / 11, rel=1e-6)
+    assert float(objective_lower_bound(program, best.multipliers)) == pytest.approx(best.lower_bound, rel=1e-12)
+    assert best.unbalance[0] == pytest.approx(7 / 11, rel=1e-6)
+
+
+def test_what_is_proven_of_some_rows_is_proven_of_all() -> None:
+    """Property: multipliers of rows that are left out are 0, and the point is judged by all rows."""
+    program, target = _two_rows(), Target(1e-6, 1e-6, False)
+    assert near_rows(program, np.array([-1.0 + 0j])).tolist() == [True, False]
+    assert near_rows(program, np.array([7 / 11 + 0j])).tolist() == [True, True]
+    active = ActiveRows.of(program, np.array([True, False]))
+    part = interior_point(active.program, target).smallest
+    whole = active.over_all(program, part)
+    assert part.objective == pytest.approx(0.0, abs=1e-6)
+    assert whole.objective == pytest.approx(4.0, rel=1e-6)
+    assert whole.multipliers.row.tolist() == pytest.approx([1.0, 0.0])
+    assert float(objective_lower_bound(program, whole.multipliers)) == pytest.approx(part.lower_bound, abs=1e-12)
+    every = ActiveRows.of(program, np.ones(2, bool))
+    assert every.program is program

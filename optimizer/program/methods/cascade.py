@@ -15,7 +15,7 @@ import numpy as np
 
 from optimizer.numerics.arrays import Complex
 from optimizer.program.certificate import Multipliers, nothing_proven, objective_lower_bound
-from optimizer.program.kernel.finer_numbers import finest
+from optimizer.program.kernel.finer_numbers import Precision, finest
 from optimizer.program.methods.compiled import ENOUGH, TARGET, suits_kernel
 from optimizer.program.methods.feasibility_phase import (
     AMPLE,
@@ -24,6 +24,7 @@ from optimizer.program.methods.feasibility_phase import (
     raised,
     smallest_excess,
 )
+from optimizer.program.methods.inactive_rows import ActiveRows, near_rows
 from optimizer.program.methods.polish import lightened, polished
 from optimizer.program.methods.rounding import snap_to_limits
 from optimizer.program.methods.single import StagePair, Target, enough, interior_point
@@ -123,9 +124,30 @@ def _by_all(
     precision = finest(statement.limits.radius.size) if finer and suits_kernel(statement) else None
     if precision is None or enough(solution, target):
         return solution
-    fine = polished(statement, target, interior_point(statement, target, precision, inside), inside)
-    fine = lightened(statement, target, fine, precision)
-    return fine.lightest if fine.certified else _better_of(solution, fine.lightest, target.share)
+    return _in_finer_numbers(statement, target, solution, precision, inside)
+
+
+def _in_finer_numbers(
+    statement: Statement, target: Target, solution: ConeSolution, precision: Precision, inside: Complex | None
+) -> ConeSolution:
+    """The better of a solution and of what finer numbers find, whose time grows with the rows.
+
+    Rows far below the largest, as those of scenarios that decide nothing, are left out first.
+    """
+    rows = near_rows(statement, solution.unbalance)
+    while True:
+        active = ActiveRows.of(statement, rows)
+        fine = _finer(active.program, target, precision, inside)
+        whole = active.over_all(statement, fine.lightest)
+        above = near_rows(statement, whole.unbalance) & ~rows
+        if not np.any(above) or whole.objective <= fine.lightest.objective:
+            return whole if fine.certified else _better_of(solution, whole, target.share)
+        rows |= above
+
+
+def _finer(statement: Statement, target: Target, precision: Precision, inside: Complex | None) -> StagePair:
+    stages = polished(statement, target, interior_point(statement, target, precision, inside), inside)
+    return lightened(statement, target, stages, precision)
 
 
 def _single_term(statement: Statement, solution: ConeSolution) -> ConeSolution:

@@ -6,14 +6,16 @@ others is proven of all, and the point is as good where the row is still below.
 """
 
 from dataclasses import replace
+from typing import NamedTuple
 
 import numpy as np
 
-from optimizer.numerics.arrays import Real
+from optimizer.numerics.arrays import Complex, Real
 from optimizer.program.certificate import Multipliers
 from optimizer.program.methods.compiled import StageSolutions, stage_solutions
 from optimizer.program.norms import Norms
 from optimizer.program.points import points_at
+from optimizer.program.solution import ConeSolution
 from optimizer.program.statement import Names, Statement
 
 #: a row that is below the largest by this share of it is far below it
@@ -53,6 +55,41 @@ def settle_without_slack_rows(
             mass_multipliers=_over_all(whole, ~pattern, terms, part.mass_multipliers),
         )
         stages.put(programs[success], part.subset(success))
+
+
+class ActiveRows(NamedTuple):
+    """One program without the rows that are far below the largest at some point.
+
+    program : of the others.
+    rows, terms : (rows,) and (J,) bool, of the whole program, which of them it has.
+    """
+
+    program: Statement
+    rows: np.ndarray
+    terms: np.ndarray
+
+    @classmethod
+    def of(cls, statement: Statement, rows: np.ndarray) -> "ActiveRows":
+        """Those of some rows (rows,) of one program of one group."""
+        terms = rows[statement.row]
+        return cls(statement if np.all(rows) else _of_rows(statement, rows, terms), rows, terms)
+
+    def over_all(self, statement: Statement, solution: ConeSolution) -> ConeSolution:
+        """What is found of it, as a solution of the whole program: what is proven of some rows is proven of all."""
+        of_mass = solution.mass_multipliers
+        return replace(
+            solution,
+            multipliers=_over_all(statement, self.rows, self.terms, solution.multipliers),
+            mass_multipliers=None if of_mass is None else _over_all(statement, self.rows, self.terms, of_mass),
+        ).with_point(statement, solution.unbalance)
+
+
+def near_rows(statement: Statement, u: Complex) -> np.ndarray:
+    """Rows (rows,) of one program that are not far below the largest at a point (K,) kg m."""
+    rows = statement.rows(statement.norms.sizes(u))
+    largest = np.max(rows)
+    near: np.ndarray = (rows == largest) | (largest - rows <= _FAR * np.abs(largest))
+    return near
 
 
 def _of_rows(statement: Statement, rows: np.ndarray, terms: np.ndarray) -> Statement:

@@ -48,7 +48,7 @@ def ladders(request: AccuracyRequest, answer: AccuracyAnswer) -> Iterator[Chapte
     if answer.choices_ladder:
         yield Chapter("What counterweights as they are made cost", tuple(_choices(answer)))
     else:
-        worst = bool(request.scenarios) or (request.tolerances is not None and request.tolerances.any)
+        worst = bool(request.cases) or (request.tolerances is not None and request.tolerances.any)
         goal = "the smallest worst case" if worst else "the smallest objective"
         yield Chapter(f"What {goal} costs (minimum mass is off)", tuple(_ladder(answer)))
     if answer.effects_ladder:

@@ -80,7 +80,10 @@ with TestClient(create_app(Settings(), warm=False)) as client:
     refused("/v1/optimize", {"machine": machine, "speed_band": band | {"lowest_rpm": 900}}, "/speed_band/highest_rpm")
     slow = machine | {"overspeed_rpm": 800}
     refused("/v1/optimize", {"machine": slow, "speed_band": band}, "/speed_band")
-    refused("/v1/accuracy", {"machine": machine, "speed_band": band}, "/speed_band")
+    ladder = client.post("/v1/accuracy", json={"machine": machine, "speed_band": band, "repeats": 1}).json()
+    near(ladder["reference"]["objective"], 0.6 * fast)
+    alone = [row["setting"] for row in ladder["ladder"] if row["method"] == "one_scenario"]
+    assert alone == ["scenario speed_band lowest_rpm", "scenario speed_band highest_rpm"], alone
     # analytic: force and moment are both smallest at 0.4 kg m
     body = {"machine": machine, "speed_band": band, "multipliers": True}
     traded = client.post("/v1/pareto", json=body).json()
