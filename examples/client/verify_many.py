@@ -294,15 +294,18 @@ def _row(request: Place, row: Place, has_selection: bool) -> Claims:
         "bearing_columns": loads or None,
         "certificate": proofs if status != "infeasible" else None,
         "infeasibility": {**proofs, "conflict": limits} if status == "infeasible" else None,
-        **_worst(row, status),
+        **_worst(row, status, proof.get("nominal")),
     }
     yield from _by_columns(single(request, Place(answer, *row.path), whole=False), row, answer, has_selection)
     if row / "multipliers":
         yield EVIDENCE, row / "multipliers", None, ONE
 
 
-def _worst(row: Place, status: Any) -> Dict[str, Any]:
-    """The worst case and its price, where columns hold them; of several loads the largest alone is one."""
+def _worst(row: Place, status: Any, nominal: Any) -> Dict[str, Any]:
+    """The worst case and its price, where columns hold them; of several loads the largest alone is one.
+
+    ``nominal``: what proves the optimum of the machine as it is given.
+    """
     if status == "infeasible" or not row / OF_WORST[0]:
         return {}
     worst = {name[len("worst_case_") :]: (row / name).value for name in OF_WORST}
@@ -312,7 +315,9 @@ def _worst(row: Place, status: Any) -> Dict[str, Any]:
         if name not in NAMES and row / f"worst_case_{name}_peak_{response.unit}"
     ]
     worst.update({"objective": (row / "objective").value, "responses": beside})
-    return {"worst_case": worst, "price_of_robustness": {of: (row / name).value for name, of in OF_PRICE.items()}}
+    price = {of: (row / name).value for name, of in OF_PRICE.items()}
+    proof = nominal if isinstance(nominal, dict) else {}
+    return {"worst_case": worst, "price_of_robustness": {**{f"nominal_{of}": proof[of] for of in proof}, **price}}
 
 
 def _weights(shaft: Place, row: Place, status: Any) -> List[Dict[str, Any]]:
@@ -358,6 +363,8 @@ def _beside(row: Place) -> Iterator[Dict[str, Any]]:
 def _column(path: Path, start: int, answer: Any) -> Path:
     """The column of a row in which a field of an answer stands."""
     row, inner = path[:start], path[start:]
+    if inner[:1] in (("worst_case",), ("price_of_robustness",)) and len(inner) > 1:
+        return (*row, _of_worst(inner, answer))
     if inner[-3:-2] == ("counterweights",):
         # of the crankshaft or of a balance shaft
         weight = answer
@@ -366,8 +373,6 @@ def _column(path: Path, start: int, answer: Any) -> Path:
         return (*row, f"{inner[-1]}.{weight['web']}")
     if inner[:1] == ("residual",) and len(inner) == 4:
         return (*row, _of_residual(inner, answer))
-    if inner[:1] in (("worst_case",), ("price_of_robustness",)) and len(inner) > 1:
-        return (*row, _of_worst(inner, answer))
     if inner[:2] == ("infeasibility", "conflict"):
         return (*row, "status")
     if inner[:1] in (("certificate",), ("infeasibility",), ("bearing_columns",)):
@@ -384,11 +389,11 @@ def _of_residual(inner: Path, answer: Any) -> str:
 
 
 def _of_worst(inner: Path, answer: Any) -> str:
-    """The same of the worst case, and of what it costs."""
+    """The same of the worst case, and of what it costs; what proves that is in the column of all proofs."""
     name = str(inner[1])
+    if inner[0] != "worst_case":
+        return {of: column for column, of in OF_PRICE.items()}.get(name, "multipliers")
     if name == "responses" and len(inner) == 4:
         response = answer["worst_case"]["responses"][inner[2]]["response"]
         return f"worst_case_{response}_peak_{ON_FRAME[response].unit}"
-    if inner[0] == "worst_case":
-        return name if name == "objective" else f"worst_case_{name}"
-    return {of: column for column, of in OF_PRICE.items()}.get(name, name)
+    return name if name == "objective" else f"worst_case_{name}"

@@ -4,6 +4,7 @@ from typing import Annotated, Literal
 
 from pydantic import Field, StringConstraints
 
+from schemas.answer.counterweights import Counterweight, FittedShaft
 from schemas.base.model import Model
 from schemas.base.quantities import Degrees, Kilograms, Name
 from schemas.base.responses import RESPONSES
@@ -112,6 +113,24 @@ class Multipliers(Model):
     )
 
 
+class NominalProof(Model):
+    """The best of a design as it is given, nothing off, and what proves it; fields as in the price of robustness."""
+
+    lower_bound: float | None = Field(
+        description="certified: nothing within the limits is smaller on that machine, nothing off; null where goals are"
+        " met in their order",
+        examples=[30344.97],
+    )
+    counterweights: tuple[Counterweight, ...] = Field(description="those of that optimum", examples=[[]])
+    balance_shafts: tuple[FittedShaft, ...] = Field(
+        description="unbalances of the balance shafts at that optimum", examples=[[]]
+    )
+    multipliers: BoundMultipliers | None = Field(description="of its lower bound; null likewise", examples=[None])
+    implied_max_mass_kg: dict[Name, Kilograms] = Field(
+        description="limits that change nothing on that machine, which its bound counts with", examples=[{}]
+    )
+
+
 class DesignMultipliers(Model):
     """What a sweep holds of the proof of one design, as JSON text."""
 
@@ -133,6 +152,11 @@ class DesignMultipliers(Model):
         description="of webs without a limit, or with one far beyond any need: limits that change nothing, which the"
         " bounds count with",
         examples=[{"far": 41.2}],
+    )
+    nominal: NominalProof | None = Field(
+        None,
+        description="of nominal_optimum, with scenarios or tolerances; null where choices were searched",
+        examples=[None],
     )
 
 

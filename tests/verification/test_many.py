@@ -186,6 +186,29 @@ def test_what_multipliers_prove_of_rows_over_the_turn() -> None:
     assert verdict(body, swept(body)) == "held"
 
 
+@pytest.mark.parametrize(
+    "features",
+    [
+        ("tolerances of masses and angles",),
+        ("scenario of speed", "balance shaft backwards"),
+        ("tolerances of masses and angles", "orders all"),
+    ],
+)
+def test_the_best_of_the_machine_as_it_is_given_is_proven_in_a_row(features: tuple[str, ...]) -> None:
+    base = body_of("twin", features)
+    body = {"base": base, "axes": [{"path": "/machine/speed_rpm", "values": [700]}], "multipliers": True}
+    table = swept(body)
+    assert verdict(body, table) == "held"
+    for column in ("nominal_optimum", "nominal_optimum_worst_case"):
+        for factor in (1 - 1e-6, 1 + 1e-6):
+            assert is_broken(body, [table[0] | {column: factor * table[0][column]}]), column
+    proof = json.loads(table[0]["multipliers"])
+    proof["nominal"]["lower_bound"] *= 1 + 1e-6
+    assert is_broken(body, [table[0] | {"multipliers": json.dumps(proof)}])
+    without = json.dumps(proof | {"nominal": None})
+    assert claims(body, [table[0] | {"multipliers": without}])["nominal_optimum"] == "not covered"
+
+
 @pytest.mark.parametrize("columns", [["total_mass_kg", "objective"], ["/machine/speed_rpm", "objective"]])
 def test_a_row_of_chosen_columns_is_not_covered(columns: list[str]) -> None:
     body = {"base": SINGLE["ceilings"], "axes": _SPEEDS, "columns": columns}

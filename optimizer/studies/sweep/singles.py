@@ -14,7 +14,8 @@ from optimizer.solve.solution import Infeasible, Solution
 from optimizer.solve.solve import solve
 from optimizer.solve.worst_case import nothing_off
 from schemas.answer.answers import GoalReached
-from schemas.answer.proof import DesignMultipliers
+from schemas.answer.proof import DesignMultipliers, NominalProof
+from schemas.answer.robust import PriceOfRobustness
 from schemas.base.responses import RESPONSES
 from schemas.machine.reciprocating import balance_shafts
 from schemas.request.requests import OptimizeRequest
@@ -111,6 +112,7 @@ def _as_text(best: Solution | Infeasible) -> str:
             mass_objective_limit=certificate.mass_objective_limit,
             conflict=None,
             implied_max_mass_kg=certificate.implied_max_mass_kg,
+            nominal=_nominal_proof(best.fields.get("price_of_robustness")),
         )
     else:
         proof = DesignMultipliers(
@@ -121,6 +123,19 @@ def _as_text(best: Solution | Infeasible) -> str:
             implied_max_mass_kg=best.infeasibility.implied_max_mass_kg,
         )
     return proof.model_dump_json()
+
+
+def _nominal_proof(price: object) -> NominalProof | None:
+    """What proves the optimum of the machine as it is given, where a price has it."""
+    if not isinstance(price, PriceOfRobustness) or not price.nominal_counterweights:
+        return None
+    return NominalProof(
+        lower_bound=price.nominal_lower_bound,
+        counterweights=price.nominal_counterweights,
+        balance_shafts=price.nominal_balance_shafts,
+        multipliers=price.nominal_multipliers,
+        implied_max_mass_kg=price.nominal_implied_max_mass_kg,
+    )
 
 
 def _or_nan(value: object) -> float:
