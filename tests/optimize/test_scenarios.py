@@ -10,7 +10,7 @@ from pydantic import ValidationError
 
 from optimizer.errors import MissingInput
 from optimizer.program.kernel.finer_numbers import Precision
-from optimizer.program.methods import compiled
+from optimizer.program.methods import stage_ends
 from schemas.answer.answers import OptimizeAnswer
 from schemas.front.pareto import ParetoRequest
 from schemas.request.accuracy import AccuracyRequest
@@ -185,7 +185,7 @@ def test_scenarios_that_are_none_are_refused_by_name(scenarios: list[dict[str, A
 
 def test_scenarios_that_decide_nothing_cost_no_finer_numbers(monkeypatch: pytest.MonkeyPatch) -> None:
     """Property: of ten scenarios of 1e-9 to 1e12 times a mass those alone are solved in 50 digits that may decide."""
-    norms, own = list[int](), compiled.solve_in
+    norms, own = list[int](), stage_ends.solve_in
 
     def counted(precision: Precision) -> Any:
         def solved(data: Any, *rest: Any) -> Any:
@@ -194,7 +194,7 @@ def test_scenarios_that_decide_nothing_cost_no_finer_numbers(monkeypatch: pytest
 
         return solved
 
-    monkeypatch.setattr(compiled, "solve_in", counted)
+    monkeypatch.setattr(stage_ends, "solve_in", counted)
     rng, design = np.random.default_rng(148), random_machine(28)
     scenarios = []
     for n in range(int(rng.integers(8, 32))):
