@@ -101,7 +101,7 @@ def best_choice(task: Task, scene: Prepared, in_full: bool = True, worst_case: b
         sum(stage.outcome.rounds for stage in stages),
         [stage.outcome.lower_bound for stage in stages[:-1]],
         course.closed,
-        _levels_of(course.levels, goals.program, picked, scene.omega_squared),
+        _levels_of(course, goals.program, picked, scene.omega_squared),
     )
     answer = solution_of(task, scene, goals, Candidate(picked.mass, picked.angle, best), judged, proof, in_full)
     if task.robust and worst_case:
@@ -109,17 +109,27 @@ def best_choice(task: Task, scene: Prepared, in_full: bool = True, worst_case: b
     return answer
 
 
-def _levels_of(levels: list[GoalReached], program: Problem, choice: Choice, omega_squared: float) -> list[GoalReached]:
-    """Levels of goals, no lower than a choice keeps them: time may end before all worse changes of masses are in."""
-    if not levels:
-        return levels
-    values = (program.values(choice.unbalance, _CLOSE).goals * omega_squared).tolist()
-    there: dict[str, float] = {goal.name: value for goal, value in zip(program.goals, values, strict=True)}
-    above = {level.goal for level in levels if there.get(level.goal, -np.inf) > level.limit * (1.0 + _ROUNDING)}
-    return [
-        level.model_copy(update=dict.fromkeys(("value", "limit"), there[level.goal])) if level.goal in above else level
-        for level in levels
-    ]
+def _levels_of(course: "_GoalOrder", program: Problem, choice: Choice, omega_squared: float) -> list[GoalReached]:
+    """Levels of goals, no lower than their own choices come to and the last one keeps them.
+
+    Time may end before all worse changes of masses are in, with which goals are made small.
+    """
+    names = [goal.name for goal in program.goals]
+
+    def judged(unbalance: Complex) -> dict[str, float]:
+        values = (program.values(unbalance, _CLOSE).goals * omega_squared).tolist()
+        return dict(zip(names, values, strict=True))
+
+    levels, there = list[GoalReached](), judged(choice.unbalance) if course.levels else {}
+    # of a goal that nothing keeps there is no level
+    for level, unbalance in zip(course.levels, course.unbalances, strict=False):
+        value, most = level.value, level.limit
+        if level.goal in there:
+            own, last = judged(unbalance)[level.goal], there[level.goal]
+            value = own if own > value * (1.0 + _ROUNDING) else value
+            most = max(most, value, last if last > most * (1.0 + _ROUNDING) else most)
+        levels.append(level.model_copy(update={"value": value, "limit": most}))
+    return levels
 
 
 class _GoalChoice(NamedTuple):

@@ -30,3 +30,19 @@ def test_an_earlier_goal_comes_to_its_own_worst_case(kind: str) -> None:
     assert external.limit == pytest.approx(alone.objective + 0.05 * alone.yardstick, rel=0, abs=2 * size)
     assert proof.objective <= external.limit
     assert mass.value == ordered.total_mass_kg
+
+
+def test_time_that_ends_leaves_no_goal_below_its_own_worst_case(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Independent: the same goal alone, where after the first round no time was left for worse masses."""
+    body: dict[str, Any] = body_of("twin", []) or {}
+    body |= {"machine": body["machine"] | KINDS["a catalogue"], "tolerances": {"reciprocating_mass_relative": 0.2}}
+    alone = optimize(body).certificate
+    monkeypatch.setattr("optimizer.solve.choice.MOST_ROUNDS", 1)
+    proof = optimize(body | {"objective": {"priorities": [EXTERNAL, {"goal": "mass"}]}}).certificate
+    assert proof is not None
+    assert alone is not None
+    assert alone.lower_bound is not None
+    external, _ = proof.goals
+    assert external.value >= alone.lower_bound
+    assert external.value <= external.limit
+    assert proof.objective <= external.limit
