@@ -17,7 +17,7 @@ from optimizer.mechanics.shaft_curves import ShaftCurves
 from optimizer.mechanics.whole_turn import TurnCurves, WholeTurn
 from optimizer.numerics.arrays import Complex, Real, spread
 from optimizer.responses.peak_table import Name, PeakList
-from optimizer.responses.piecewise_cubics import Bracket, Index
+from optimizer.responses.piecewise_cubics import NEARLY_NOTHING, Bracket, Index
 
 #: of a bracket, relative to the peak; and of a floor
 TOLERANCE, FLOOR_TOLERANCE = 1e-9, 1e-7
@@ -82,7 +82,7 @@ def search(scene: Prepared, searches: Iterable[Search]) -> None:
     sign = np.concatenate([item.sign for item in every])
     group = np.concatenate([_numbers(item.number.size) if item.group is None else item.group for item in every])
     group += np.array(ends[:-1]).repeat(sizes)
-    angle, value, lower, upper = batch.pieces.peaks(offset, TOLERANCE, number, group, sign)
+    angle, value, lower, upper = batch.pieces.peaks(offset, TOLERANCE, number, group, sign, NEARLY_NOTHING)
     scale = np.array([item.scale for item in every]).repeat(counts)
     rows = {item.name: slice(*own) for item, own in zip(every, pairwise(ends), strict=True)}
     scene.peaks.add(rows, Bracket(_within_turns(scene, angle), value, lower * scale, upper * scale))
@@ -135,7 +135,7 @@ def of_rows(scene: Prepared, reading: Reading) -> Extremes:
         peaks = scene.peaks.brackets(name)
     else:
         _, curves, number, offset, sign, *_ = rows_search(scene, reading)
-        peaks = curves.pieces.peaks(offset, TOLERANCE, number, None, sign)
+        peaks = curves.pieces.peaks(offset, TOLERANCE, number, None, sign, NEARLY_NOTHING)
     return Extremes(*(_reshaped(scene, _of_every_row(whole.kinds, half)) for half in _halves(peaks)))
 
 
@@ -168,7 +168,7 @@ def largest_of_rows(scene: Prepared, reading: Reading) -> Bracket:
         return Bracket(nothing, nothing.astype(complex), nothing, nothing)
     curves = whole.of_rows(reading)
     designs = np.repeat(np.arange(len(whole.centre)), curves.weights.shape[1])
-    peaks = curves.pieces.peaks(np.zeros(designs.size), TOLERANCE, None, designs)
+    peaks = curves.pieces.peaks(np.zeros(designs.size), TOLERANCE, None, designs, least=NEARLY_NOTHING)
     return _single(_reshaped(scene, peaks))
 
 
@@ -191,7 +191,7 @@ def of_torque(scene: Prepared, constant: Real | float = 0.0) -> Real:
     """Largest torque of all rows with a constant (...) N m, magnitude: (...)."""
     whole: WholeTurn = scene.results["whole_turn"]
     offset = spread(np.reshape(constant, -1), (len(whole.centre),))
-    return whole.torque.pieces.peaks(offset, TOLERANCE).lower.reshape(scene.layout.omega.shape)
+    return whole.torque.pieces.peaks(offset, TOLERANCE, least=NEARLY_NOTHING).lower.reshape(scene.layout.omega.shape)
 
 
 def of_shaft(scene: Prepared, curves: ShaftCurves, unbalance: Complex | None, group: Index | None = None) -> Bracket:
@@ -205,7 +205,8 @@ def of_shaft(scene: Prepared, curves: ShaftCurves, unbalance: Complex | None, gr
     if group is not None:
         designs = np.arange(len(pieces.half) // group.size)
         group = (designs[:, None] * (np.max(group) + 1) + group).reshape(-1)
-    return _times_square(scene, _reshaped(scene, pieces.peaks(curves.offsets(unbalance), TOLERANCE, None, group)))
+    peaks = pieces.peaks(curves.offsets(unbalance), TOLERANCE, None, group, least=NEARLY_NOTHING)
+    return _times_square(scene, _reshaped(scene, peaks))
 
 
 def shaft_search(scene: Prepared, unbalances: Sequence[Complex | None]) -> Search:

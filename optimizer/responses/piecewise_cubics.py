@@ -33,6 +33,9 @@ Vector = NDArray[Any]
 
 #: no bracket is narrower than this share of what is added up in it
 ROUNDING = 32 * np.finfo(float).eps
+#: share of what is added up, below which a peak that is shown may be left as open as one of this share: where all but
+#: rounding cancels, a bracket to a share of that takes ten times the parts
+NEARLY_NOTHING = 1e-3
 #: rad, by which an angle may be rounded within two turns
 ANGLE_ROUNDING = 64 * np.finfo(float).eps
 
@@ -118,6 +121,7 @@ class Pieces:
         curve: Index | None = None,
         group: Index | None = None,
         sign: Reals = 0.0,
+        least: float = 0.0,
     ) -> Bracket:
         """Peaks (m,) of |d + offset| over the period, each as if it were searched alone.
 
@@ -129,6 +133,7 @@ class Pieces:
         group : (m,) from 0, to search only the largest of each group, which costs less: peaks (groups,).
         sign : (m,) or one for all, the same in a group: 0 for magnitudes; of scalars 1 for the largest value of
             d + offset, -1 for the smallest, negated.
+        least : share of what is added up to which the tolerance is relative where a peak is smaller.
         """
         every = np.arange(offset.size)
         of_member, finite = every if curve is None else curve, np.isfinite(offset)
@@ -136,11 +141,10 @@ class Pieces:
         if group is None and all_true(finite):
             scale = np.abs(offset)
             scale += self.size if curve is None else self.size[curve]
-            share, signs = np.empty(every.size), np.zeros(every.size)
+            share = np.empty(every.size)
             share[:] = tolerance
-            if not magnitudes:
-                signs[:] = sign
-            return _brackets(self, offset, of_member, every, scale, share, signs, magnitudes)
+            alone = None if magnitudes else np.broadcast_to(np.asarray(sign, float), every.shape).copy()
+            return _brackets(self, offset, of_member, every, scale, share, alone, least)
         owner = every if group is None else group
         count = int(np.maximum.reduce(owner, initial=-1)) + 1
         scale, share, signs = np.zeros(count), np.zeros(count), np.zeros(count)
@@ -155,7 +159,7 @@ class Pieces:
         signs[owner] = sign
         mask = np.zeros(scale.size, dtype=bool)
         mask[owner] = True
-        return _brackets(self, offset, of_member, owner, scale, share, signs, magnitudes).where(mask)
+        return _brackets(self, offset, of_member, owner, scale, share, None if magnitudes else signs, least).where(mask)
 
 
 # it loads the compiler, and so at the first call; an import at each takes as long as a small array
@@ -173,8 +177,8 @@ def _brackets(
     group: Index,
     scale: Real,
     share: Real,
-    sign: Real,
-    magnitudes: bool,
+    sign: Real | None,
+    least: float,
 ) -> Bracket:
     """Brackets (count,), of no meaning where a peak has no member.
 
@@ -183,19 +187,20 @@ def _brackets(
     Parameters
     ----------
     offset, of_member, group : (m,) of every member, its curve, and the peak to which it belongs.
-    scale, share, sign : (count,) size of what is added up, tolerance and sign of each peak.
-    magnitudes : whether all signs are 0.
+    scale, share, sign : (count,) size of what is added up, tolerance and sign of each peak; None of magnitudes alone.
+    least : share of the size to which tolerances are relative at least.
     """
     count, parts = scale.size, _parts()
     if not group.size:
         return Bracket(*(np.full(count, np.nan) for _ in range(4)))
     curve, peak = (in_order(np.asarray(part, np.int64)) for part in (of_member, group))
-    members = parts.Members(curve, peak, in_order(np.asarray(offset, complex)), share, ROUNDING * scale, sign)
+    open_, signs = np.maximum(share * least, ROUNDING) * scale, np.zeros(count) if sign is None else sign
+    members = parts.Members(curve, peak, in_order(np.asarray(offset, complex)), share, open_, signs)
     lower, upper = np.empty(count), np.empty(count)
     lower.fill(np.nan)
     upper.fill(-np.inf)
     best = parts.Best(lower, upper, np.zeros(count), np.zeros(count, np.int64), np.zeros(count, np.int64))
     value = pieces.source.search(pieces.cubics, members, best)
     there = value + members.offset[best.member]
-    lower = np.abs(there) if magnitudes else np.where(sign == 0.0, np.abs(there), sign * there.real)
-    return Bracket(best.angle, value, lower, best.upper + members.rounding)
+    lower = np.abs(there) if sign is None else np.where(sign == 0.0, np.abs(there), sign * there.real)
+    return Bracket(best.angle, value, lower, best.upper + ROUNDING * scale)

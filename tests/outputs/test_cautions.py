@@ -141,6 +141,11 @@ def test_a_peak_that_cancels_is_no_open_one() -> None:
     answer = analyze(AnalyzeRequest.model_validate({"machine": design.model_dump(), "outputs": ["main_bearings"]}))
     low, high = answer.main_bearings.bearings[0].before.peak_bracket_N
     assert high > low * (1.0 + 1e-6)
+    # as wide as of a peak of a thousandth of the loads of one piston, and no wider
+    single = machine(throws[0], bearings=bearings).model_dump()
+    load = analyze(AnalyzeRequest.model_validate({"machine": single, "outputs": ["main_bearings"]})).main_bearings
+    size = sum(bearing.before.peak_N for bearing in load.bearings)
+    assert high - low <= 4e-12 * size
     assert _codes(answer) == ["no_gas"]
 
 

@@ -12,7 +12,7 @@ from optimizer.numerics.kernel.circle import length
 from optimizer.responses.kernel.motion import into_motion
 from optimizer.responses.kernel.outlines import Circles, farthest, nearer, outlines, surround
 from optimizer.responses.kernel.parts import Best, Members
-from optimizer.responses.piecewise_cubics import ROUNDING
+from optimizer.responses.piecewise_cubics import NEARLY_NOTHING, ROUNDING
 
 #: points added to those of the pieces for the smallest circle around a curve, at most
 _MOST_POINTS = 50
@@ -72,7 +72,8 @@ def circles(cubics, members, rows, sums, middle, motion):  # type: ignore[no-unt
         for k in range(active.size):
             j, most = active[k], peak.upper[k]
             upper[j] = most
-            open_ = most > radius[j] * (1.0 + tolerance) + _ROUNDING * size[j]
+            least = max(tolerance * NEARLY_NOTHING, _ROUNDING) * size[j]
+            open_ = most > radius[j] * (1.0 + tolerance) + least
             beyond[k] = open_ and most > largest[group[j]]
         active = active[beyond]
         if active.size == 0:
@@ -119,8 +120,9 @@ def _peaks(  # type: ignore[no-untyped-def]
         number[active], np.arange(count), -centre[active], np.empty(count), np.empty(count), np.zeros(count)
     )
     for k in range(count):
+        scale = length(centre[active[k]]) + size[active[k]]
         members.share[k] = 0.5 * tolerance
-        members.rounding[k] = ROUNDING * (length(centre[active[k]]) + size[active[k]])
+        members.rounding[k] = max(0.5 * tolerance * NEARLY_NOTHING, ROUNDING) * scale
     best = Best(
         np.full(count, np.nan),
         np.full(count, -np.inf),
@@ -131,7 +133,7 @@ def _peaks(  # type: ignore[no-untyped-def]
     value = search(cubics, members, best, rows, sums, middle, motion)
     cubic = np.zeros(4, np.complex128)
     for k in range(count):
-        best.upper[k] += members.rounding[k]
+        best.upper[k] += ROUNDING * (length(centre[active[k]]) + size[active[k]])
         cubic[:] = 0.0
         cubic[0] = value[k]
         into_motion(motion, members.curve[k], cubic, 0.0, best.angle[k], 0.0)

@@ -46,7 +46,7 @@ class Members(NamedTuple):
     group: np.ndarray  # (M,)
     offset: Complex  # (M,)
     share: Real  # (G,) of the peak that its bracket may leave open
-    rounding: Real  # (G,) that no bracket is narrower than
+    rounding: Real  # (G,) that no bracket has to be narrower than
     sign: Real  # (G,) 0 for magnitudes; of scalars 1 for their maxima, -1 for their minima, negated
 
 
