@@ -14,7 +14,7 @@ from service.workers.worker import Outcome
 def pool_of(size: int, places: int) -> Pool:
     """A pool of so many short computations at a time, for which so many may wait, all of them of one client."""
     settings = Settings(concurrent_solves=size, queue_length=places, queue_length_each=places)
-    return Pool(shares(settings), timeout_s=180, memory_mb=2000)
+    return Pool(shares(settings), timeout_s=600, memory_mb=2000)
 
 
 def run(pool: Pool, *arguments: object) -> list[Outcome | Exception]:
