@@ -143,11 +143,11 @@ class Pieces:
             scale += self.size if curve is None else self.size[curve]
             share = np.empty(every.size)
             share[:] = tolerance
-            alone = None if magnitudes else np.broadcast_to(np.asarray(sign, float), every.shape).copy()
-            return _brackets(self, offset, of_member, every, scale, share, alone, least)
+            signs = None if magnitudes else np.full(every.size, sign, float)
+            return _brackets(self, offset, of_member, every, scale, share, signs, least)
         owner = every if group is None else group
         count = int(np.maximum.reduce(owner, initial=-1)) + 1
-        scale, share, signs = np.zeros(count), np.zeros(count), np.zeros(count)
+        scale, share, signs = np.zeros(count), np.zeros(count), None if magnitudes else np.zeros(count)
         if not all_true(finite):
             offset, of_member, owner = offset[finite], of_member[finite], owner[finite]
             tolerance, sign = (part[finite] if isinstance(part, np.ndarray) else part for part in (tolerance, sign))
@@ -156,10 +156,11 @@ class Pieces:
             np.maximum.at(share, owner, tolerance)
         else:
             share[owner] = tolerance
-        signs[owner] = sign
+        if signs is not None:
+            signs[owner] = sign
         mask = np.zeros(scale.size, dtype=bool)
         mask[owner] = True
-        return _brackets(self, offset, of_member, owner, scale, share, None if magnitudes else signs, least).where(mask)
+        return _brackets(self, offset, of_member, owner, scale, share, signs, least).where(mask)
 
 
 # it loads the compiler, and so at the first call; an import at each takes as long as a small array
