@@ -5,6 +5,8 @@ import os
 import subprocess
 import sys
 
+from tests.night import at_night
+
 #: an operator for the same types with other options, an array that is made, a vector loop, a module's constant
 _CODE = """
 import sys
@@ -38,6 +40,8 @@ print(next(iter(entry.inspect_asm().values())))
 """
 
 
+# two compilers; only another release of numba changes it
+@at_night
 def test_machine_code_is_the_same() -> None:
     # variables are kept in sets, the order of which is that of places on the stack
     fixed = {**os.environ, "PYTHONHASHSEED": "0"}
