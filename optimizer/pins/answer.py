@@ -1,14 +1,15 @@
 """Loads of the anti-rotation pins of a scroll, from the request to the answer."""
 
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 
 import numpy as np
 
 from optimizer.numerics.arrays import Real
 from optimizer.pins.contact import Contact
 from optimizer.pins.energy import compared, pitch_energy
-from optimizer.pins.loads import PeriodicTable, degrees_of_freedom, gas_torques, levers, peaks
+from optimizer.pins.loads import PeriodicTable, degrees_of_freedom, gas_torques, levers
 from optimizer.pins.pattern import Pattern, pattern_of
+from optimizer.pins.peaks import GRID_DEG, has_exact_peaks, is_stuck, turn_peaks
 from schemas.base.mappings import or_mapping
 from schemas.scroll.over_turn import ForceTable, TorqueTable
 from schemas.scroll.pin_loads import (
@@ -24,9 +25,6 @@ from schemas.scroll.pin_loads import (
 
 #: balances that close to this share of their terms hold
 _ROUNDING = 1e-9
-#: grid of the search for peaks with clearances or dead points, which does not depend on the samples
-_GRID_DEG = 0.5
-_REFINEMENTS, _PARTS = 8, 16
 
 
 @or_mapping(PinLoadsRequest)
@@ -39,10 +37,10 @@ def pin_loads(request: PinLoadsRequest) -> PinLoadsAnswer:
     watched = np.concatenate([angle, torque.angle_deg, np.arange(0.0, 360.0, 45.0) + pattern.phase_deg[0]])
     contact = pattern.contact(torque.at(angle), angle) if pattern.has_clearance else None
     load = pattern.loads(torque.at(angle), angle) if contact is None else pattern.with_rest(contact.load)
-    stuck = _stuck(pattern, torque, angle)
+    stuck = is_stuck(pattern, torque, angle)
     equilibrium = _equilibrium(pattern, torque, watched)
     unbounded = not pattern.formula and bool(np.any(torque.at(pattern.dead_deg) != 0.0))
-    peak, peak_angle = _peaks(pattern, torque)
+    peak, peak_angle = turn_peaks(pattern, torque)
     bears = None if contact is None else (contact.load != 0.0) & ~stuck[:, None]
     halves = None if contact is not None or not torque.keeps_its_sign else _compression_from(pattern, torque)
     pins = tuple(
@@ -82,7 +80,7 @@ def pin_loads(request: PinLoadsRequest) -> PinLoadsAnswer:
         drive_bearing=drive,
         energy=pitch_energy(pattern, torque),
         comparison=None if request.comparison is None else compared(request.comparison, lever, pattern, torque, angle),
-        warnings=tuple(_warnings(pattern, contact, stuck, search=not (unbounded or _has_exact_peaks(pattern)))),
+        warnings=tuple(_warnings(pattern, contact, stuck, search=not (unbounded or has_exact_peaks(pattern)))),
     )
 
 
@@ -105,11 +103,6 @@ def _periodic(torque: float | TorqueTable | ForceTable | None) -> PeriodicTable:
     return PeriodicTable(np.zeros(1), np.array([float(torque or 0.0)]))
 
 
-def _stuck(pattern: Pattern, torque: PeriodicTable, angle_deg: Real) -> np.ndarray:
-    """Whether a torque acts at shaft angles (...) where nothing holds it: the loads there have no meaning."""
-    return pattern.at_dead_point(angle_deg) & (torque.at(angle_deg) != 0.0)
-
-
 def _without(values: Real, left_out: np.ndarray) -> tuple[float | None, ...]:
     return tuple(None if out else value for value, out in zip(values.tolist(), left_out.tolist(), strict=True))
 
@@ -120,46 +113,12 @@ def _compression_from(pattern: Pattern, torque: PeriodicTable) -> Real:
     return np.mod(start if torque.value[0] > 0.0 else start + 180.0, 360.0)
 
 
-def _peaks(pattern: Pattern, torque: PeriodicTable) -> tuple[Real, Real]:
-    """Largest magnitudes (n,) N over the turn and their angles (n,) degrees."""
-    if _has_exact_peaks(pattern):
-        return peaks(pattern.shapes(), torque)
-
-    def size(angle_deg: Real) -> Real:
-        load = np.abs(pattern.loads(torque.at(angle_deg), angle_deg))
-        return np.where(_stuck(pattern, torque, angle_deg)[..., None], 0.0, load)
-
-    # what errors strain at a dead point stands there alone: beside it the scroll turns until they do not
-    return _refined_peaks(size, np.concatenate([np.arange(0.0, 360.0, _GRID_DEG), torque.angle_deg, pattern.dead_deg]))
-
-
-def _has_exact_peaks(pattern: Pattern) -> bool:
-    """Whether peaks have a closed form; a search on a grid may miss one that is narrower than its step."""
-    return not pattern.has_clearance and (pattern.formula or not pattern.dead_deg.size)
-
-
-def _refined_peaks(size: Callable[[Real], Real], grid_deg: Real) -> tuple[Real, Real]:
-    """Largest values of every pin, from the best of a grid by ever finer ones around it."""
-    on_grid = size(grid_deg)
-    best = grid_deg[np.argmax(on_grid, axis=0)]
-    half, pin = _GRID_DEG, np.arange(best.size)
-    # the best so far is the first of equal ones: it stays on a dead point or an entry of the table
-    parts = np.append(0.0, np.delete(np.linspace(-1.0, 1.0, _PARTS + 1), _PARTS // 2))
-    for _ in range(_REFINEMENTS):
-        near = best[:, None] + half * parts
-        values = size(near)[pin[:, None], np.arange(parts.size), pin[:, None]]
-        best = near[pin, np.argmax(values, axis=-1)]
-        half *= 2.0 / _PARTS
-    peak = np.max(values, axis=-1)
-    return peak, np.where(peak > 0.0, np.mod(best, 360.0), 0.0)
-
-
 def _equilibrium(pattern: Pattern, torque: PeriodicTable, angle: Real) -> PinEquilibrium:
     """Balances of the loads at shaft angles (m,)."""
     moment = torque.at(angle)
     load = pattern.loads(moment, angle)
     lever = levers(pattern.places, angle)
-    stuck = _stuck(pattern, torque, angle)
+    stuck = is_stuck(pattern, torque, angle)
     dead = np.zeros(0) if pattern.formula else torque.at(pattern.dead_deg)
     residual = np.where(stuck, 0.0, np.sum(load * lever, axis=-1) - moment)
     net = np.where(stuck, 0.0, np.sum(load, axis=-1))
@@ -234,7 +193,7 @@ def _warnings(pattern: Pattern, contact: Contact | None, stuck: np.ndarray, sear
             yield PinWarning(code="not_converged", message=message)
     if search:
         message = (
-            f"peaks are the largest of samples every {_GRID_DEG:g} degrees, refined around the largest; what lies"
+            f"peaks are the largest of samples every {GRID_DEG:g} degrees, refined around the largest; what lies"
             " between others is not certified"
         )
         yield PinWarning(code="peaks_not_certified", message=message)
