@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from math import degrees
-from typing import Any, Dict, Optional, Sequence
+from typing import Any, Dict, List, Optional, Sequence
 
-from verify_bearings import PEAK, sampled, within
+from verify_bearings import PEAK, rising, sampled, within
 from verify_claims import Claim, Claims, same
 from verify_contact import contact
 from verify_harmonics import Peak
@@ -98,16 +98,18 @@ def _carried(turn: Turn, place: Place) -> Claims:
     pins, entries = turn.pins, list(place / "pins")
     if len(entries) != pins.count:
         raise Unreadable((*place.path, "pins"), f"must hold {pins.count} pins")
-    loads, peaks = [], []
+    loads, peaks, brackets = [], [], []
     for k, entry in enumerate(entries):
         yield same(CLAIM, entry / "index", k + 1)
         yield within(CLAIM, entry / "phase_deg", pins.phases[k], pins.phases[k], EXACT * 360)
         loads.append((yield from _load(turn, entry, k)))
         peaks.append((entry / "peak_N").value)
+        brackets.append([end.double() for end in entry / "peak_bracket_N"])
         yield from _halves(turn, entry, k)
         if not pins.loose:
             yield same(CLAIM, entry / "carries_load", None)
     yield same(CLAIM, place / "peak_N", None if turn.is_unbounded else max(peaks))
+    yield from _largest(place / "peak_bracket_N", brackets)
     yield from _presence(pins.drive > 0, place / "drive_bearing")
     if pins.drive and place / "drive_bearing":
         loads.append((yield from _load(turn, place / "drive_bearing", pins.count)))
@@ -128,9 +130,10 @@ def _load(turn: Turn, entry: Place, k: int) -> Claims:
         loads.append(0.0 if stuck else sample.double())
     loads = [*loads, *[0.0] * len(turn.angles)][: len(turn.angles)]
     if turn.is_unbounded:
-        yield same(CLAIM, entry / "peak_N", None)
-        yield same(CLAIM, entry / "peak_angle_deg", None)
+        for name in ("peak_N", "peak_bracket_N", "peak_angle_deg"):
+            yield same(CLAIM, entry / name, None)
         return loads
+    yield from _presence(not pins.dead or pins.formula, entry / "peak_bracket_N")
     largest: Optional[Peak] = None
     if not (pins.loose or (pins.dead and not pins.formula) or len(torque.angles) * pins.count > MANY):
         largest = peak(pins, k, torque)
@@ -141,12 +144,41 @@ def _load(turn: Turn, entry: Place, k: int) -> Claims:
     return loads
 
 
+def _largest(place: Place, brackets: List[List[float]]) -> Claims:
+    """The bracket of the largest load of any pin."""
+    ends = [max(of_pins) for of_pins in zip(*brackets)]
+    if not ends:
+        yield same(CLAIM, place, None)
+        return
+    yield rising(CLAIM, place)
+    for end, value in zip(place, ends):
+        yield within(CLAIM, end, value, value, 0.0)
+
+
+def _bracket(entry: Place, low: float, high: Optional[float], off: float) -> Claims:
+    """Ends around the largest load, which is between two figures or, where nothing encloses it, above the first."""
+    place, ends = entry / "peak_bracket_N", list(entry / "peak_bracket_N")
+    if not place:
+        return
+    yield rising(CLAIM, place)
+    if len(ends) != 2:
+        return
+    lower, upper, size = *(end.double() for end in ends), (entry / "peak_N").double()
+    yield within(CLAIM, ends[0], size, size, 0.0)
+    if high is None:
+        yield CLAIM, ends[1], -ONE if upper < low else None, ONE
+    else:
+        yield CLAIM, ends[0], real(high - lower + off), real(high + off)
+        yield within(CLAIM, ends[1], low, high * (1 + PEAK), off)
+
+
 def _unclear(entry: Place, least: float) -> Claims:
     """Between the samples these loads are not enclosed."""
     place, angle = entry / "peak_N", (entry / "peak_angle_deg").double()
     below = place.double() < least * (1 - PEAK)
     yield CLAIM, place, -ONE if below else None, ONE
     yield CLAIM, entry / "peak_angle_deg", None if 0 <= angle < 360 else -ONE, ONE
+    yield from _bracket(entry, least, None, 0.0)
 
 
 def _peak(turn: Turn, entry: Place, k: int, largest: Peak) -> Claims:
@@ -154,6 +186,7 @@ def _peak(turn: Turn, entry: Place, k: int, largest: Peak) -> Claims:
     pins, place, angle = turn.pins, entry / "peak_angle_deg", (entry / "peak_angle_deg").double()
     off = pins.load(k, turn.torque.at(largest.angle), largest.angle)[1]
     yield within(CLAIM, entry / "peak_N", largest.low * (1 - PEAK), largest.high, off)
+    yield from _bracket(entry, largest.low * (1 - PEAK), largest.high, off)
     there = abs(pins.load(k, turn.torque.at(angle), angle)[0]) if 0 <= angle < 360 else -1.0
     yield _no_less(place, there, largest.low * (1 - PEAK) - off)
 

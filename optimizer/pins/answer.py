@@ -5,11 +5,12 @@ from collections.abc import Iterator
 import numpy as np
 
 from optimizer.numerics.arrays import Real
+from optimizer.pins.brackets import Peaks
 from optimizer.pins.contact import Contact
 from optimizer.pins.energy import compared, pitch_energy
 from optimizer.pins.loads import PeriodicTable, degrees_of_freedom, gas_torques, levers
 from optimizer.pins.pattern import Pattern, pattern_of
-from optimizer.pins.peaks import GRID_DEG, has_exact_peaks, is_stuck, turn_peaks
+from optimizer.pins.peaks import GRID_DEG, is_stuck, turn_peaks
 from schemas.base.mappings import or_mapping
 from schemas.scroll.over_turn import ForceTable, TorqueTable
 from schemas.scroll.pin_loads import (
@@ -40,7 +41,7 @@ def pin_loads(request: PinLoadsRequest) -> PinLoadsAnswer:
     stuck = is_stuck(pattern, torque, angle)
     equilibrium = _equilibrium(pattern, torque, watched)
     unbounded = not pattern.formula and bool(np.any(torque.at(pattern.dead_deg) != 0.0))
-    peak, peak_angle = turn_peaks(pattern, torque)
+    peaks = turn_peaks(pattern, torque)
     bears = None if contact is None else (contact.load != 0.0) & ~stuck[:, None]
     halves = None if contact is not None or not torque.keeps_its_sign else _compression_from(pattern, torque)
     pins = tuple(
@@ -48,8 +49,9 @@ def pin_loads(request: PinLoadsRequest) -> PinLoadsAnswer:
             index=i + 1,
             phase_deg=float(pattern.phase_deg[i]),
             load_N=_without(load[:, i], stuck),
-            peak_N=None if unbounded else float(peak[i]),
-            peak_angle_deg=None if unbounded else float(peak_angle[i]),
+            peak_N=None if unbounded else float(peaks.size[i]),
+            peak_bracket_N=None if unbounded else peaks.bracket(i),
+            peak_angle_deg=None if unbounded else float(peaks.angle_deg[i]),
             compression_from_deg=None if halves is None else float(halves[i]),
             compression_to_deg=None if halves is None else float((halves[i] + 180.0) % 360.0),
             tension_from_deg=None if halves is None else float((halves[i] + 180.0) % 360.0),
@@ -62,8 +64,9 @@ def pin_loads(request: PinLoadsRequest) -> PinLoadsAnswer:
     if pattern.drive > 0.0:
         drive = DriveBearingLoad(
             load_N=_without(load[:, -1], stuck),
-            peak_N=None if unbounded else float(peak[-1]),
-            peak_angle_deg=None if unbounded else float(peak_angle[-1]),
+            peak_N=None if unbounded else float(peaks.size[-1]),
+            peak_bracket_N=None if unbounded else peaks.bracket(-1),
+            peak_angle_deg=None if unbounded else float(peaks.angle_deg[-1]),
         )
     largest, lever = float(np.max(np.abs(torque.value))), request.orbit_radius_m or 0.0
     return PinLoadsAnswer(
@@ -71,7 +74,8 @@ def pin_loads(request: PinLoadsRequest) -> PinLoadsAnswer:
         rotation_torque_Nm=torque.at(angle),
         orbiting_resistance_torque_Nm=None if resistance is None else resistance.at(angle),
         pins=pins,
-        peak_N=None if unbounded else float(np.max(peak[: pattern.count])),
+        peak_N=None if unbounded else float(np.max(peaks.size[: pattern.count])),
+        peak_bracket_N=None if unbounded else peaks.largest_bracket(pattern.count),
         half_turn_mechanism_peak_N=4.0 * largest / (pattern.count * float(np.mean(pattern.radius))),
         equilibrium=equilibrium,
         dead_points_deg=tuple(pattern.dead_deg.tolist()),
@@ -80,7 +84,7 @@ def pin_loads(request: PinLoadsRequest) -> PinLoadsAnswer:
         drive_bearing=drive,
         energy=pitch_energy(pattern, torque),
         comparison=None if request.comparison is None else compared(request.comparison, lever, pattern, torque, angle),
-        warnings=tuple(_warnings(pattern, contact, stuck, search=not (unbounded or has_exact_peaks(pattern)))),
+        warnings=tuple(_warnings(pattern, contact, stuck, None if unbounded else peaks)),
     )
 
 
@@ -176,8 +180,10 @@ def _contact(pins: Real, contact: Contact, stuck: np.ndarray) -> PinContact:
     )
 
 
-def _warnings(pattern: Pattern, contact: Contact | None, stuck: np.ndarray, search: bool) -> Iterator[PinWarning]:
-    """``search``: whether peaks come of one."""
+def _warnings(
+    pattern: Pattern, contact: Contact | None, stuck: np.ndarray, peaks: Peaks | None
+) -> Iterator[PinWarning]:
+    """``peaks``: None where a dead point has no bound."""
     if pattern.count < 3 and pattern.dead_deg.size:
         message = f"{pattern.count} pin(s) have dead points; at least 3, not on one line, are needed"
         yield PinWarning(code="too_few_pins", message=message)
@@ -191,9 +197,10 @@ def _warnings(pattern: Pattern, contact: Contact | None, stuck: np.ndarray, sear
         if np.any((contact.error_bound > 1e-6 * largest) & ~stuck):
             message = "the loads are certified to no more than contact.load_error_bound_N"
             yield PinWarning(code="not_converged", message=message)
-    if search:
-        message = (
-            f"peaks are the largest of samples every {GRID_DEG:g} degrees, refined around the largest; what lies"
-            " between others is not certified"
+    if peaks is not None and not peaks.is_certified:
+        message = f"peaks are the largest of samples every {GRID_DEG:g} degrees, refined around the largest; " + (
+            "at and beside dead points nothing bounds them"
+            if peaks.bound is None
+            else "their brackets stayed wider than 1e-6 of the largest"
         )
         yield PinWarning(code="peaks_not_certified", message=message)

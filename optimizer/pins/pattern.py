@@ -55,6 +55,11 @@ class Pattern:
     def has_clearance(self) -> bool:
         return not self.formula and bool(np.any(self.clearance > 0.0) or np.any(self.error != 0.0))
 
+    @property
+    def play(self) -> tuple[Real, Real]:
+        """Clearances and errors of the pins [m], and of an elastic bearing, which has none."""
+        return self._with_drive(self.clearance, 0.0), self._with_drive(self.error, 0.0)
+
     def _with_drive(self, pins: Real, drive: float) -> Real:
         return np.append(pins, drive) if 0.0 < self.drive < np.inf else pins
 
@@ -67,10 +72,7 @@ class Pattern:
         dead = self.at_dead_point(angle_deg)
         # levers are equal at a dead point, and no turn of the scroll changes a strain; digits alone would differ
         lever = np.where(dead[..., None], 0.0, levers(self.pins.place, angle_deg))
-        clearance, error = self._with_drive(self.clearance, 0.0), self._with_drive(self.error, 0.0)
-        return pin_contact(
-            lever, np.where(dead, 0.0, torque), self.pins.stiffness, clearance, error, is_rigid=self.is_rigid
-        )
+        return pin_contact(lever, np.where(dead, 0.0, torque), self.pins.stiffness, *self.play, is_rigid=self.is_rigid)
 
     def loads(self, torque: Real, angle_deg: Real) -> Real:
         """(..., n) N, or (..., n + 1) with the drive's bearing; at dead points, which hold no torque, those of none."""

@@ -1,14 +1,15 @@
-"""Largest loads of pins and of the drive's bearing over a turn: in closed form, or by a search."""
+"""Largest loads of pins and of the drive's bearing over a turn: in closed form, or by a search that a bound ends."""
 
 from collections.abc import Callable
 
 import numpy as np
 
 from optimizer.numerics.arrays import Real
+from optimizer.pins.brackets import Peaks, enclosed_peaks
 from optimizer.pins.loads import PeriodicTable, peaks
 from optimizer.pins.pattern import Pattern
 
-#: grid of the search for peaks with clearances or dead points, which does not depend on the samples
+#: grid of the search with clearances or dead points, which does not depend on the samples
 GRID_DEG = 0.5
 _REFINEMENTS, _PARTS = 8, 16
 
@@ -18,22 +19,22 @@ def is_stuck(pattern: Pattern, torque: PeriodicTable, angle_deg: Real) -> np.nda
     return pattern.at_dead_point(angle_deg) & (torque.at(angle_deg) != 0.0)
 
 
-def turn_peaks(pattern: Pattern, torque: PeriodicTable) -> tuple[Real, Real]:
-    """Largest magnitudes (n,) N over the turn and their angles (n,) degrees."""
-    if has_exact_peaks(pattern):
-        return peaks(pattern.shapes(), torque)
+def turn_peaks(pattern: Pattern, torque: PeriodicTable) -> Peaks:
+    """Largest magnitudes over the turn; beside dead points loads jump, and nothing bounds them."""
+    if not pattern.has_clearance and (pattern.formula or not pattern.dead_deg.size):
+        size, angle_deg = peaks(pattern.shapes(), torque)
+        return Peaks(size, angle_deg, size)
 
-    def size(angle_deg: Real) -> Real:
+    def magnitude(angle_deg: Real) -> Real:
         load = np.abs(pattern.loads(torque.at(angle_deg), angle_deg))
         return np.where(is_stuck(pattern, torque, angle_deg)[..., None], 0.0, load)
 
+    edges = np.unique(np.append(np.arange(0.0, 360.0 + GRID_DEG, GRID_DEG), torque.angle_deg))
     # what errors strain at a dead point stands there alone: beside it the scroll turns until they do not
-    return _refined_peaks(size, np.concatenate([np.arange(0.0, 360.0, GRID_DEG), torque.angle_deg, pattern.dead_deg]))
-
-
-def has_exact_peaks(pattern: Pattern) -> bool:
-    """Whether peaks have a closed form; a search on a grid may miss one that is narrower than its step."""
-    return not pattern.has_clearance and (pattern.formula or not pattern.dead_deg.size)
+    size, angle_deg = _refined_peaks(magnitude, np.append(edges[:-1], pattern.dead_deg))
+    if pattern.dead_deg.size:
+        return Peaks(size, angle_deg, None)
+    return enclosed_peaks(pattern, torque, edges, size, angle_deg)
 
 
 def _refined_peaks(size: Callable[[Real], Real], grid_deg: Real) -> tuple[Real, Real]:

@@ -28,6 +28,14 @@ MAX_LOADS = 1_000_000
 MAX_LOADS_WITH_CLEARANCE = 50_000
 
 Clearance = Annotated[float, non_negative(1.0), Unit("m")]
+PeakBracket = Annotated[
+    tuple[Newtons, Newtons] | None,
+    Field(
+        description="the same as a bracket, at least and at most, whatever the samples; null where a dead point has no"
+        " bound, and where errors strain pins at one",
+        examples=[[166.67, 166.67]],
+    ),
+]
 EccentricityError = Annotated[float, symmetric(1.0), Unit("m")]
 _TORQUE_EXAMPLE = {"angle_deg": [0, 120, 240], "torque_Nm": [12, 15, 13]}
 
@@ -157,9 +165,10 @@ class PinLoad(Model):
     )
     peak_N: Newtons | None = Field(
         description="largest magnitude over a revolution, between samples too; null where a dead point has no bound;"
-        " with clearances, errors or dead points the largest that a search sees (warning peaks_not_certified)",
+        " in peak_bracket_N, or the largest that a search sees (warning peaks_not_certified)",
         examples=[166.67],
     )
+    peak_bracket_N: PeakBracket = None
     peak_angle_deg: Degrees | None = Field(description="first shaft angle of the peak", examples=[90.0])
     compression_from_deg: Degrees | None = Field(
         description="where the pin's compression begins; null if torque or contact leave less than half a revolution",
@@ -221,6 +230,7 @@ class DriveBearingLoad(Model):
     peak_N: Newtons | None = Field(
         description="largest magnitude over a revolution; null where a dead point has no bound", examples=[98.0]
     )
+    peak_bracket_N: PeakBracket = None
     peak_angle_deg: Degrees | None = Field(description="first shaft angle of the peak", examples=[20.0])
 
 
@@ -256,6 +266,7 @@ class PinLoads(Model):
     peak_N: Newtons | None = Field(
         description="largest load of any pin; null where a dead point has no bound", examples=[166.67]
     )
+    peak_bracket_N: PeakBracket = None
     half_turn_mechanism_peak_N: Newtons = Field(
         description="the same for a mechanism whose members bear for half a revolution only, 4 T / (n R) "
         "at the largest torque and the mean radius",
