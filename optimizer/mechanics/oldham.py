@@ -56,6 +56,33 @@ def keys(ring: Oldham, torque: Real, angle: Real) -> Keys:
     return Keys(couple, scroll, speed * np.abs(np.sin(own)), speed * np.abs(np.cos(own)))
 
 
+def largest_key(ring: Oldham, torque: Real, angle: Real) -> Real:
+    """Largest magnitude of what a key carries over the turn, (...) N, exact.
+
+    Between entries of the torque a key in the scroll carries +-T/(2 R) - A cos(theta - u) with A = m e omega^2 / 2 and
+    T' constant: it is level where +-T'/(2 R) + A sin(theta - u) = 0. Keys in the frame carry most at entries.
+
+    Parameters
+    ----------
+    torque : (..., M) N m, linear in between and periodic.
+    angle : (..., M) rad, rising within one turn.
+    """
+    following = np.concatenate([angle[..., 1:], angle[..., :1] + 2.0 * np.pi], axis=-1)
+    slope = (np.roll(torque, -1, axis=-1) - torque) / (following - angle)
+    reach, axis = np.asarray(ring.key_radius)[..., None], np.asarray(ring.axis)[..., None]
+    inertia = 0.5 * np.asarray(ring.mass * ring.orbit_radius * ring.omega**2)[..., None]
+    share = slope / (2.0 * reach)
+    level = np.arcsin(np.clip(share / np.where(inertia > 0.0, inertia, np.inf), -1.0, 1.0))
+    # of both signs of the couple, and of both angles with that sine; an angle that is none of its piece is moved to it
+    own = np.stack([level, np.pi - level, -level, np.pi + level], axis=-1) + axis[..., None]
+    start, wide = angle[..., None], (following - angle)[..., None]
+    inside = np.minimum(np.mod(own - start, 2.0 * np.pi), wide)
+    where = np.concatenate([start + inside, start], axis=-1)
+    couple = (torque[..., None] + slope[..., None] * (where - start)) / (2.0 * reach[..., None])
+    pull = np.abs(inertia[..., None] * np.cos(where - axis[..., None]))
+    return np.asarray(np.max(np.abs(couple) + pull, axis=(-2, -1)))
+
+
 def pin_losses(load: Real, diameter: Real, friction: Real, omega: Real) -> Real:
     """Power that pins lose in their two journals, (..., T) W: mu |Q| d/2 at omega, twice a pin.
 

@@ -54,7 +54,9 @@ class OldhamLoads(Model):
     scroll_speed_m_s: Curve[MetresPerSecond] = Field(
         description="sliding speed of the keys in the scroll", examples=[[1.57]]
     )
-    peak_key_N: Newtons = Field(description="largest load of a key at the samples", examples=[112.0])
+    peak_key_N: Newtons = Field(
+        description="largest load of a key over a revolution, between samples too", examples=[112.0]
+    )
     peak_speed_m_s: MetresPerSecond = Field(
         description="largest sliding speed, orbit radius times angular speed", examples=[1.57]
     )
