@@ -11,15 +11,16 @@ from optimizer.pins.pattern import Pattern
 from schemas.scroll.losses import LossComparison, Losses, OldhamLoads
 from schemas.scroll.pin_loads import PitchEnergy
 
-#: panels of the integrals, which end where a load changes its sign or a pin begins to bear as well
-_PANEL_DEG, _BISECTIONS = 2.0, 44
+#: panels of the integrals, which end where a load changes its sign or a pin begins to bear as well; with play a pin may
+#: bear for less than a degree
+_PANEL_DEG, _PANEL_WITH_PLAY_DEG, _BISECTIONS = 2.0, 0.5, 44
 _NODES, _WEIGHTS = np.polynomial.legendre.leggauss(4)
 
 
 def pitch_energy(pattern: Pattern, torque: PeriodicTable) -> PitchEnergy:
     """W_Q = - integral of sum Q a over one pitch, and W_F = integral of T, for d theta from 0."""
     pitch = 360.0 / pattern.count
-    angle, weight = _quadrature(pitch, torque.angle_deg)
+    angle, weight = _quadrature(pitch, torque.angle_deg, _PANEL_DEG)
     load = pattern.loads(torque.at(angle), angle)
     pins = -float(np.sum(weight * np.sum(load * levers(pattern.places, angle), axis=-1)))
     work = float(np.sum(weight * torque.at(angle)))
@@ -40,7 +41,8 @@ def compared(
         ring_keys = keys(data, torque.at(angle), np.deg2rad(angle))
         return np.column_stack([ring_keys.frame, ring_keys.scroll])
 
-    angle, weight = _quadrature(360.0, np.append(torque.angle_deg, pattern.dead_deg), pin_forces)
+    panel = _PANEL_WITH_PLAY_DEG if pattern.has_clearance else _PANEL_DEG
+    angle, weight = _quadrature(360.0, np.append(torque.angle_deg, pattern.dead_deg), panel, pin_forces)
     of_pins = pin_losses(
         pin_forces(angle),
         np.asarray(comparison.pin_diameter_m),
@@ -52,7 +54,7 @@ def compared(
     friction = np.asarray(ring.friction_coefficient)
     # sliding speeds change their signs on the ring's axis and across it
     axes = np.mod(ring.axis_deg + np.arange(0.0, 360.0, 90.0), 360.0)
-    angle, weight = _quadrature(360.0, np.append(torque.angle_deg, axes), key_forces)
+    angle, weight = _quadrature(360.0, np.append(torque.angle_deg, axes), _PANEL_DEG, key_forces)
     of_ring = keys(data, torque.at(angle), np.deg2rad(angle)).loss(friction)
     loss = float(np.sum(weight * of_ring)) / (2.0 * np.pi)
     at_samples = keys(data, torque.at(angle_deg), np.deg2rad(angle_deg))
@@ -73,12 +75,14 @@ def _ring(keys: Keys, peak: float, speed: float, loss: float) -> OldhamLoads:
     )
 
 
-def _quadrature(end_deg: float, breaks_deg: Real, forces: Callable[[Real], Real] | None = None) -> tuple[Real, Real]:
+def _quadrature(
+    end_deg: float, breaks_deg: Real, panel_deg: float, forces: Callable[[Real], Real] | None = None
+) -> tuple[Real, Real]:
     """Nodes in degrees and weights in radians over [0, end], panel by panel between the breaks.
 
     forces : whose magnitudes have kinks where they change their signs, (n,) degrees to (n, ...).
     """
-    grid = np.linspace(0.0, end_deg, max(1, int(np.ceil(end_deg / _PANEL_DEG))) + 1)
+    grid = np.linspace(0.0, end_deg, max(1, int(np.ceil(end_deg / panel_deg))) + 1)
     edges = np.unique(np.concatenate([grid, breaks_deg[breaks_deg < end_deg]]))
     if forces is not None:
         edges = np.unique(np.append(edges, _changes(forces, edges)))

@@ -38,7 +38,8 @@ def test_losses_are_the_mean_of_many_samples_independent(seed: int, has_play: bo
     losses = ask(**body).comparison
     assert losses is not None
     omega, table = 100.0 * np.pi, body["rotation_torque_Nm"]
-    torque = PeriodicTable(np.array(table["angle_deg"]), np.array(table["torque_Nm"])).at(TURN)
+    torques = PeriodicTable(np.array(table["angle_deg"]), np.array(table["torque_Nm"]))
+    torque = torques.at(TURN)
     pattern = pattern_of(PinLoadsRequest.model_validate(body))
     carried = np.mean(np.sum(np.abs(pattern.loads(torque, TURN)[:, : pattern.count]), axis=-1))
     assert losses.pins_W == pytest.approx(0.002 * 0.008 * omega * carried, rel=1e-6)
@@ -48,10 +49,12 @@ def test_losses_are_the_mean_of_many_samples_independent(seed: int, has_play: bo
     scroll = np.abs(frame - pull) + np.abs(frame + pull)
     rate = 2.0 * np.abs(frame * np.sin(own)) + scroll * np.abs(np.cos(own))
     assert losses.oldham_ring.loss_W == pytest.approx(0.08 * 0.005 * omega * np.mean(rate), rel=1e-7)
-    largest = np.max(np.abs(frame) + np.abs(pull))
+    # its corners lie between these samples
+    at_corners = np.abs(np.cos(np.deg2rad(torques.angle_deg - ring["axis_deg"])))
+    corners = np.abs(torques.value) / 0.12 + 0.5 * ring["mass_kg"] * 0.005 * omega**2 * at_corners
+    largest = max(np.max(np.abs(frame) + np.abs(pull)), np.max(corners))
     assert largest <= losses.oldham_ring.peak_key_N * (1.0 + 1e-12)
-    # a corner of the torque lies between two samples
-    assert largest == pytest.approx(losses.oldham_ring.peak_key_N, rel=1e-5)
+    assert largest == pytest.approx(losses.oldham_ring.peak_key_N, rel=1e-6)
 
 
 def test_the_largest_key_load_is_level_where_couple_and_inertia_change_alike_analytic() -> None:
