@@ -221,18 +221,22 @@ def infeasible(request: Place, answer: Place, budget: Place, verdict: Place) -> 
         if CEILINGS[name] not in limits:
             yield "smallest", item / "response", -ONE, ONE
             continue
-        alone, priced = Statement(plain, Place({}), {name: {name: ONE}}), partial(priced_at, {name: lowest.number()})
-        yield from proven(
-            "smallest", lowest, alone, item / "multipliers", implied_alone(verdict, name, implied), {}, priced
-        )
-        yield "smallest", item / "response", ONE, ONE
-        yield same("smallest", item / "ceiling_field", CEILINGS[name])
-        yield near("smallest", item / "ceiling", (goal / CEILINGS[name]).number(0.0))
-        own = implied_alone(verdict, name, implied)
-        yield from near_the_bound("smallest", item / "smallest", lowest, plain, name, own)
+        yield from component(goal, plain, verdict, item)
         if CEILINGS[name] in names and len(names) < len(limits):
             yield "conflict", lowest, lowest.number() - (goal / CEILINGS[name]).number(), lowest.number()
     yield from closest(request, plain, verdict / "closest")
+
+
+def component(goal: Place, machine: Machine, verdict: Place, item: Place) -> Claims:
+    """What a response or its component, which has a ceiling, comes to at least by itself."""
+    name, lowest = (item / "response").text(*CEILINGS), item / "lower_bound"
+    implied = implied_alone(verdict, name, verdict / "implied_max_mass_kg")
+    alone, priced = Statement(machine, Place({}), {name: {name: ONE}}), partial(priced_at, {name: lowest.number()})
+    yield from proven("smallest", lowest, alone, item / "multipliers", implied, {}, priced)
+    yield "smallest", item / "response", ONE, ONE
+    yield same("smallest", item / "ceiling_field", CEILINGS[name])
+    yield near("smallest", item / "ceiling", (goal / CEILINGS[name]).number(0.0))
+    yield from near_the_bound("smallest", item / "smallest", lowest, machine, name, implied)
 
 
 def near_the_bound(claim: str, attained: Place, lowest: Place, machine: Machine, name: str, implied: Place) -> Claims:

@@ -14,13 +14,14 @@ from verify_cuts import SHAFTS
 from verify_first import CEILING, ceilings, infeasible, light, lightest, priced_at, proven, smallest
 from verify_form import form
 from verify_leaves import Path
-from verify_machine import ENTRY_FIELDS, NAMES, ON_FRAME, Machine, Responses
-from verify_numbers import ABOUT_ONE, ONE, SPECK, ZERO, NotCovered, Number, Place, Unreadable, largest, real
+from verify_machine import ENTRY_FIELDS, NAMES, ON_FRAME, Machine
+from verify_numbers import ABOUT_ONE, ONE, SPECK, ZERO, NotCovered, Place, Unreadable, largest, real
 from verify_orders import first_order
 from verify_program import CEILINGS, Statement
 from verify_shafts import geared
 from verify_single import single
-from verify_turn import unreachable
+from verify_trades import TRADED, traded
+from verify_turn import looks_at_the_turn, unreachable
 from verify_weights import active_limits, counterweights, shafts, usual_gap
 from verify_worst_front import of_both, worst_curve
 
@@ -46,14 +47,15 @@ OF_STATUS = {"objective", "lower_bound", "yardstick"}
 def front(request: Place, answer: Place) -> Claims:
     """Fronts of force and moment, one for each budget."""
     yield from form(answer, ("pareto",))
-    request.require_coverage(f"{ENTRY_FIELDS}{SHAFTS}{OFF}{OF_CASES}")
+    kind = "trades" if list(request / "responses") else "fronts"
+    request.require_coverage(f"{ENTRY_FIELDS}{SHAFTS}{OFF}{OF_CASES}{TRADED if kind == 'trades' else ''}")
     design, goal = request / "machine", request / "objective"
     plain = _machine(request, answer, design / "max_total_mass_kg")
     yield from before(request, plain, answer)
     yield from first_order("before", answer / "without_counterweights", plain.before)
-    fronts, budgets = list(answer / "fronts"), list(request / "total_mass_budgets_kg")
+    fronts, budgets = list(answer / kind), list(request / "total_mass_budgets_kg")
     if len(fronts) != max(1, len(budgets)):
-        raise Unreadable((*answer.path, "fronts"), "must hold one front for each budget")
+        raise Unreadable((*answer.path, kind), "must hold one front for each budget")
     worst = max(fronts, key=lambda curve: STATUSES.index((curve / "status").text(*STATUSES)))
     yield same("status", answer / "status", (worst / "status").value)
     for curve, budget in zip(fronts, budgets or [design / "max_total_mass_kg"]):
@@ -64,11 +66,14 @@ def front(request: Place, answer: Place) -> Claims:
             yield "max_total_mass", curve / "max_total_mass_kg", -ONE, ONE
         if (curve / "status").text(*STATUSES) == "infeasible":
             yield "status", curve / "status", ONE if curve / "infeasibility" else -ONE, ONE
-            of_all = list(design / "balance_shafts") or uncertain(request)
+            of_all = list(design / "balance_shafts") or uncertain(request) or looks_at_the_turn(request)
             no_weights = unreachable if of_all else infeasible
             yield from no_weights(request, answer, budget, curve / "infeasibility")
             continue
         machine = _machine(request, answer, budget)
+        if kind == "trades":
+            yield from covered(traded(request, machine, curve))
+            continue
         if uncertain(request):
             yield from worst_curve(request, machine, curve)
             yield from _closed(request, curve)
@@ -181,7 +186,9 @@ def point(statement: Statement, request: Place, scale: Place, answer: Place) -> 
     if optimal:
         accuracy = (request / "accuracy" / "relative_gap").number(usual_gap(request / "machine"), least=0)
         yield "status", relative, accuracy - relative.number() if relative else None, ONE
-    yield from _active(request, machine=statement.machine, place=answer, left=after, mass=mass)
+    rooms = touched(request, statement.machine, after, mass)
+    if rooms is not None:
+        yield from active_limits("active_limits", answer / "active_limits", rooms)
     slack = {name: size * real(CEILING) for name, size in statement.sizes.items()}
     priced = partial(priced_at, {name: (proof / f"{name}_{unit}").number(0.0) for name, unit in NAMES.items()})
     of_corner = proven("corner", proof / "force_N", statement, multipliers / "objective", implied, slack, priced)
@@ -195,12 +202,6 @@ def point(statement: Statement, request: Place, scale: Place, answer: Place) -> 
         yield near("mass_gap", proof / "mass_relative_gap", gap * ABOUT_ONE / size if size.low > 0 else ZERO)
         if optimal:
             yield "status", status, size * real(MASS_GAP) - gap, size
-
-
-def _active(request: Place, machine: Machine, place: Place, left: Responses, mass: Number) -> Claims:
-    rooms = touched(request, machine, left, mass)
-    if rooms is not None:
-        yield from active_limits("active_limits", place / "active_limits", rooms)
 
 
 def sweep(request: Place, rows: Place) -> Iterator[Claim]:

@@ -12,6 +12,7 @@ from typing import Dict, List, Optional, Sequence, Tuple
 
 from verify_answer import Fitted
 from verify_cases import cases, goals, scatter
+from verify_claims import EVIDENCE, Claims
 from verify_curves import root
 from verify_cuts import Group, Part, Term
 from verify_machine import ON_FRAME, Machine, Web, over
@@ -243,6 +244,31 @@ class Program:
         levels = [*self.levels, most]
         charge = total(price * levels[goal] for (_, goal), price in prices.items() if goal < last or cost is not ZERO)
         return dict.fromkeys(sums, share), charge * share
+
+
+def by_cuts(
+    claim: str,
+    entry: Place,
+    bound: Tuple[Optional[Number], bool],
+    implied: Place,
+    proof: Place,
+    besides: Number = ZERO,
+    mixed: bool = False,
+) -> Claims:
+    """What is said is no more than cuts prove.
+
+    ``besides``: what is there in any case. ``mixed``: how cases share what is proven is not told.
+    """
+    least, believed = bound
+    if believed:
+        yield "reach", implied, None, ONE
+    room = None if least is None or not entry else least + besides - entry.number()
+    if mixed and room is not None and room.high < 0:
+        room = None
+    yield claim, entry, room, largest(abs(entry.number(0.0)), abs(least or ZERO))
+    if room is not None:
+        yield EVIDENCE, proof, None, ONE
+        yield EVIDENCE, implied, None, ONE
 
 
 def _means(rows: Dict[str, Number], terms: List[Term], scattered: bool) -> Tuple[Dict[str, Number], List[Term]]:

@@ -8,7 +8,6 @@ and balance shafts are not covered.
 from __future__ import annotations
 
 from functools import partial
-from typing import Optional, Tuple
 
 from verify_answer import Fitted, closest, fitted
 from verify_cases import FIELDS as CASES
@@ -22,9 +21,10 @@ from verify_goals import Program as Asked
 from verify_goals import cheaper, values
 from verify_machine import ENTRY_FIELDS, NAMES, NOTHING, Machine
 from verify_misplacement import misplacement
-from verify_multipliers import Program
-from verify_numbers import ONE, SPECK, STEP, ZERO, Number, Place, largest, real
+from verify_multipliers import Program, by_cuts
+from verify_numbers import ONE, SPECK, STEP, Place, largest, real
 from verify_program import CEILINGS
+from verify_smallest import SmallestPeaks
 
 #: ceilings of loads over the turn
 LOADED = ("bearing_ceiling_N", "specific_load_ceiling_Pa", "bending_ceiling_Nm")
@@ -55,7 +55,7 @@ def over_turn(request: Place, answer: Place, machine: Machine, fitted: Fitted) -
     yield "cuts", proof, value + noise + real(NOTHING) - reached if objective else None, largest(value, reached)
     of_objective = multipliers / "objective"
     bound = program.bound(of_objective, terms, implied)
-    yield from _proven("lower_bound", of_any_mass, bound, implied, of_objective, mixed=program.mixed)
+    yield from by_cuts("lower_bound", of_any_mass, bound, implied, of_objective, mixed=program.mixed)
     slopes = program.slopes
     yield from _earlier(program, proof, implied)
     least, limit = proof / "mass_lower_bound_kg", (proof / "mass_objective_limit").number(0.0)
@@ -67,7 +67,7 @@ def over_turn(request: Place, answer: Place, machine: Machine, fitted: Fitted) -
     elif least and multipliers / "mass":
         of_mass = multipliers / "mass"
         bound = program.bound(of_mass, program.terms(of_mass), implied, ONE, limit)
-        yield from _proven("mass_lower_bound", least, bound, implied, of_mass, machine.fixed, program.mixed)
+        yield from by_cuts("mass_lower_bound", least, bound, implied, of_mass, machine.fixed, program.mixed)
     size, mass, first = proof / "mass_yardstick_kg", fitted.mass + fitted.on_shafts_mass, program.first
     if size and abs(size.number() - mass).low <= (mass * SPECK).high:
         yield near("yardstick", size, mass)
@@ -94,7 +94,7 @@ def _earlier(program: Program, proof: Place, implied: Place) -> Claims:
             continue
         so_far = program.up_to(n)
         bound = so_far.bound(goal / "multipliers", so_far.terms(goal / "multipliers"), implied)
-        yield from _proven("goals", goal / "lower_bound", bound, implied, goal / "multipliers", mixed=program.mixed)
+        yield from by_cuts("goals", goal / "lower_bound", bound, implied, goal / "multipliers", mixed=program.mixed)
 
 
 def _nominal(request: Place, machine: Machine, answer: Place) -> Claims:
@@ -112,7 +112,7 @@ def _nominal(request: Place, machine: Machine, answer: Place) -> Claims:
         yield from exactly("nominal_optimum", lowest, first.exact, proof, implied, over, priced)
         return
     bound = program.bound(proof, program.terms(proof), implied)
-    yield from _proven("nominal_optimum", lowest, bound, implied, proof)
+    yield from by_cuts("nominal_optimum", lowest, bound, implied, proof)
 
 
 def unreachable(request: Place, answer: Place, budget: Place, verdict: Place) -> Claims:
@@ -141,7 +141,9 @@ def unreachable(request: Place, answer: Place, budget: Place, verdict: Place) ->
         yield EVIDENCE, implied, None, ONE
     yield from closest(request, machine, verdict / "closest")
     first = program.first
-    if len(program.parts) == 1 and not (program.scattered or program.mixed or first.all or first.geared):
+    of_cases = len(program.parts) > 1 or bool(program.scattered or program.mixed or first.all or first.geared)
+    yield from SmallestPeaks(request, machine, verdict).claims(of_cases)
+    if not of_cases:
         # a scenario alone is a machine of its own
         machine = program.first.machine
         yield from smallest(machine, Place({}), verdict, proofs, implied)
@@ -151,25 +153,3 @@ def unreachable(request: Place, answer: Place, budget: Place, verdict: Place) ->
                 yield from near_the_bound(
                     f"smallest_{name}", attained, lowest, machine, name, implied_alone(verdict, name, implied)
                 )
-
-
-def _proven(
-    claim: str,
-    entry: Place,
-    bound: Tuple[Optional[Number], bool],
-    implied: Place,
-    proof: Place,
-    besides: Number = ZERO,
-    mixed: bool = False,
-) -> Claims:
-    """``besides``: what is there in any case. ``mixed``: how cases share what is proven is not told."""
-    least, believed = bound
-    if believed:
-        yield "reach", implied, None, ONE
-    room = None if least is None or not entry else least + besides - entry.number()
-    if mixed and room is not None and room.high < 0:
-        room = None
-    yield claim, entry, room, largest(abs(entry.number(0.0)), abs(least or ZERO))
-    if room is not None:
-        yield EVIDENCE, proof, None, ONE
-        yield EVIDENCE, implied, None, ONE

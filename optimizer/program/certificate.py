@@ -62,7 +62,9 @@ class Multipliers:
         row = _alike(statement, np.maximum(self.row, 0.0))
         allowed = row[..., statement.row]
         size = np.abs(self.term)
-        shrink = np.where(size > allowed, allowed / np.where(size > 0, size, 1.0), 1.0)
+        over = size > allowed
+        # a term of 1e-310 divides nothing: the quotient would be infinite
+        shrink = np.where(over, allowed / np.where(over, size, 1.0), 1.0)
         term = statement.norms.counting(self.term * shrink)
         return Multipliers(term, row, statement.ceilings.norms.counting(self.ceiling))
 

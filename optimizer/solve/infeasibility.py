@@ -141,6 +141,8 @@ def unreachable(
     square = scene.omega_squared
     alone = goals.program.changed(ceilings=(), limited=())
     groups = {name: Group(rows=rows) for name, rows in _alone(task, goals, square).items()}
+    if task.objective.orders == "all":
+        groups |= _of_all_orders(goals, PAIR, square)
     # quantities in the conflict; all with ceilings if the proof does not name them
     at_fault = _under_ceilings(task, goals) if failure is None else _at_fault(failure)
     limited = {alone.quantities[limit.quantity].name: limit for limit in goals.limited}
@@ -231,6 +233,15 @@ def _under_ceilings(task: Task, goals: Goals) -> list[str]:
     ceilings = objective_ceilings(task.objective) if task.objective.orders == "first" else ()
     limited = (goals.program.quantities[limit.quantity].name for limit in goals.limited)
     return list(dict.fromkeys((*(fields.response for fields, _ in ceilings), *limited)))[:_MOST_AT_FAULT]
+
+
+def _of_all_orders(goals: Goals, names: Sequence[str], omega_squared: float) -> dict[str, Group]:
+    """Peaks of all orders by themselves, with a ceiling or not: the largest of all cases."""
+    weighed: dict[str, list[Weighed]] = {name: [] for name in names}
+    for q, quantity in enumerate(goals.program.quantities):
+        if quantity.name in weighed:
+            weighed[quantity.name].append(Weighed(q, goals.speeds[quantity.scenario] / omega_squared))
+    return {name: Group(weighed=tuple(of_name)) for name, of_name in weighed.items()}
 
 
 def _least(program: Problem, group: Group) -> CertifiedOptimum:

@@ -1,9 +1,12 @@
 """Chapters in a terminal: headed paragraphs and tables; what other writers draw over the turn is a coarse table."""
 
-from collections.abc import Iterable, Iterator
-from typing import Literal
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass
+from typing import Literal, NamedTuple
 
-from rich.console import Group, RenderableType
+from rich.box import SIMPLE_HEAD
+from rich.cells import cell_len
+from rich.console import Console, ConsoleOptions, Group, RenderableType, RenderResult
 from rich.table import Table as Grid
 from rich.text import Text
 
@@ -52,21 +55,73 @@ def _block(block: Block) -> Iterator[RenderableType]:
     elif isinstance(block, Listing):
         yield Text(plain(block.text))
     elif isinstance(block, Table):
-        yield _grid(block)
+        yield _Grid(block)
     elif isinstance(block, Figure) and block.samples is not None:
-        yield from map(_grid, _coarse(block.samples))
+        yield from map(_Grid, _coarse(block.samples))
 
 
-def _grid(block: Table) -> Grid:
-    # titles and cells come from requests: as texts they are no markup
-    grid = Grid(title=Text(plain(block.title)) if block.title else None, title_justify="left", title_style="bold")
-    grid.show_header = block.headed
-    for column in block.columns:
-        justify: Literal["left", "right"] = "right" if column.numeric else "left"
-        grid.add_column(Text(plain(column.title)), justify=justify, overflow="fold")
-    for row in block.rows:
-        grid.add_row(*(Text(_text(cell)) for cell in row))
-    return grid
+@dataclass(frozen=True)
+class _Grid:
+    """A table as wide as there is room for: words go on the next line, figures never do."""
+
+    block: Table
+
+    def __rich_console__(self, console: Console, options: ConsoleOptions) -> RenderResult:
+        """Yield the grid with frames, or where its words do not fit between them the one without."""
+        block, room = self.block, options.max_width
+        # titles and cells come from requests: as texts they are no markup
+        rows = [[plain(_text(cell)) for cell in row] for row in block.rows]
+        columns = [_spread(plain(column.title), [row[k] for row in rows], column.numeric, block.headed)
+                   for k, column in enumerate(block.columns)]  # fmt: skip
+        framed = room - 3 * len(columns) - 1
+        tight = sum(column.word for column in columns) > framed
+        widths = _widths(columns, room - len(columns) + 1 if tight else framed)
+        grid = Grid(title=Text(plain(block.title)) if block.title else None, title_justify="left", title_style="bold")
+        grid.show_header = block.headed
+        if tight:
+            grid.box, grid.show_edge, grid.padding = SIMPLE_HEAD, False, (0, 0, 0, 0)
+        for column, width in zip(block.columns, widths, strict=True):
+            justify: Literal["left", "right"] = "right" if column.numeric else "left"
+            grid.add_column(Text(plain(column.title)), justify=justify, overflow="fold", width=width)
+        for row in rows:
+            grid.add_row(*map(Text, row))
+        yield grid
+
+
+class _Spread(NamedTuple):
+    """Characters that a column takes: with broken words, with a word on a line, and with all of a text on one."""
+
+    figure: int
+    word: int
+    whole: int
+
+
+def _spread(title: str, cells: Sequence[str], is_numeric: bool, is_headed: bool) -> _Spread:
+    heads = [title] if is_headed else []
+    words = [word for text in (heads if is_numeric else [*heads, *cells]) for word in text.split()]
+    figure = max(map(cell_len, cells), default=1) if is_numeric else 1
+    word = max([figure, *map(cell_len, words)])
+    return _Spread(figure, word, max([word, *map(cell_len, [*heads, *cells])]))
+
+
+def _widths(columns: Sequence[_Spread], room: int) -> list[int]:
+    """Of every column: what it takes where all have room, else at least its words and a share of what is left."""
+    widths = [column.word for column in columns]
+    left = room - sum(widths)
+    while left < 0:
+        spare = [width - column.figure for width, column in zip(widths, columns, strict=True)]
+        if max(spare) <= 0:
+            # not even the figures have room: as narrow as can be
+            break
+        widths[spare.index(max(spare))] -= 1
+        left += 1
+    while left > 0:
+        missing = [column.whole - width for width, column in zip(widths, columns, strict=True)]
+        if max(missing) <= 0:
+            break
+        widths[missing.index(max(missing))] += 1
+        left -= 1
+    return widths
 
 
 def _text(cell: Cell) -> str:

@@ -160,6 +160,22 @@ def test_ceilings_below_the_floor_are_out_of_reach_and_say_by_how_much(field: st
     assert why.multipliers.conflict.ceilings
 
 
+def test_smallest_peaks_of_all_orders_are_of_all_orders_with_a_ceiling_or_without() -> None:
+    """Independent: what the peak comes to where it is weighed alone. The first order of the moment is 938 N m."""
+    body = body_of("twin", ["orders all"])
+    assert body is not None
+    why = optimize(
+        OptimizeRequest.model_validate(body | {"objective": {"orders": "all", "force_ceiling_N": 1}})
+    ).infeasibility
+    assert why is not None
+    alone = {**body, "objective": {"orders": "all", "force_weight": 0, "moment_weight": 1}}
+    proof = optimize(OptimizeRequest.model_validate(alone)).certificate
+    assert proof is not None
+    assert why.smallest_moment_Nm == pytest.approx(proof.objective, rel=1e-5)
+    assert why.smallest_moment_lower_bound_Nm == pytest.approx(proof.lower_bound, rel=1e-5)
+    assert why.smallest_moment_Nm > 1.4 * why.closest.first_order.moment.counter_rotating_Nm
+
+
 def test_machines_without_webs_are_answered() -> None:
     machine = inline_six() | {"webs": []}
     _, proof = answered(machine, bearing_weight=1, **ALONE)

@@ -165,6 +165,14 @@ def test_admissible_multipliers_are_what_they_have_to_be(kind: str) -> None:
     assert doubled.price(program) == pytest.approx(2.0 * sums[0])
 
 
+def test_the_smallest_multipliers_divide_nothing() -> None:
+    """Analytic: a term below its row stays as it is, however small; no quotient overflows."""
+    program = _program(9, "ceiling")
+    proof = _multipliers(9, program)
+    tiny = replace(proof, term=np.full(proof.term.shape, 1e-310 + 0j), row=np.ones(proof.row.shape))
+    np.testing.assert_array_equal(tiny.admissible(program).term, tiny.term)
+
+
 def test_multipliers_of_some_programs_are_put_in_the_place_of_others() -> None:
     programs = [_program(seed, "ceiling") for seed in range(3)]
     every = Multipliers(*(np.stack(parts) for parts in zip(

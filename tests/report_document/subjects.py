@@ -11,7 +11,7 @@ from pkgutil import resolve_name
 from typing import Any
 
 from schemas.front.counts import CountFront
-from schemas.request.accuracy import AccuracyAnswer
+from schemas.request.accuracy import AccuracyAnswer, AccuracyRequest
 from schemas.request.requests import OptimizeRequest
 from service.computations.table import COMPUTATIONS
 from service.documents.examples import bodies
@@ -187,7 +187,8 @@ def _optimum_subject(body: Any) -> Subject:
 
 def _accuracy(**changes: Any) -> Subject:
     answer = AccuracyAnswer.model_validate({**_MEASURED, **changes})
-    return Subject(answer, lambda value: ladders(None, value))  # type: ignore[arg-type]
+    request = AccuracyRequest.model_validate({"machine": _SMALL})
+    return Subject(answer, lambda value: ladders(request, value))
 
 
 def accuracy(*rungs: dict[str, Any]) -> AccuracyAnswer:

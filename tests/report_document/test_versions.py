@@ -56,6 +56,22 @@ def test_each_version_is_what_the_service_answers_for_it_alone() -> None:
     assert pdf(report(request, AT)).startswith(b"%PDF-")
 
 
+def test_where_no_ceiling_is_kept_masses_are_those_of_the_peaks_beside_them() -> None:
+    request = request_of(
+        "2d12", objective={"force_ceiling_N": 1}, versions=[{"name": "600 rpm", "machine": faster(600)}]
+    )
+    figures, weights, _ = tables(request)
+    why = optimize(request.alone).infeasibility
+    assert why is not None
+    masses = [counterweight.mass_kg for counterweight in why.closest.counterweights]
+    assert figures.rows[0] == ("counterweights", *2 * ("infeasible: best compromise",))
+    total = figures.rows[5][1]
+    assert figures.rows[5][0] == "total mass, kg"
+    assert isinstance(total, Number)
+    assert total.value == pytest.approx(sum(masses), rel=1e-12)
+    assert [row[1] == "none" for row in weights.rows] == [mass == 0 for mass in masses]
+
+
 def test_without_versions_there_is_no_chapter() -> None:
     assert tables(request_of("2d12")) == []
 

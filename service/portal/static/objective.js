@@ -54,23 +54,26 @@ export function ofTheShaft({ main_bearings: found }) {
 }
 
 // which ceilings cannot be met, and how far what is limited can come down
-export function refusal({ objective }, { conflict, smallest, smallest_force_N: force, smallest_moment_Nm: moment, closest }) {
+export function refusal({ objective, scenarios, tolerances }, { conflict, smallest, smallest_force_N: force, smallest_moment_Nm: moment, closest }) {
   const { force: nearForce, moment: nearMoment } = closest.first_order;
   const names = conflict.map((field) => limited(field, closest.responses));
   const [mostForce, mostMoment] = [objective?.force_ceiling_N, objective?.moment_ceiling_Nm];
   const asked = [mostForce == null ? null : `${written(mostForce, "N")} of force`, mostMoment == null ? null : `${written(mostMoment, "N m")} of moment`].filter(Boolean);
+  // of the compromise the answer has the first order of the machine as it is given, which may be below them
+  const worst = scenarios?.length || Object.values(tolerances ?? {}).some((off) => off) ? "in the worst case " : "";
+  const every = objective?.orders === "all" ? " of all orders" : "";
   // what has no ceiling is not computed
-  const reach = [force == null ? null : `the peak force can come down to ${figure(force)} N`,
-    moment == null ? null : `the peak moment can come down to ${figure(moment)} N m`].filter(Boolean);
+  const reach = [force == null ? null : `the peak force${every} can ${worst}come down to ${figure(force)} N`,
+    moment == null ? null : `the peak moment${every} can ${worst}come down to ${figure(moment)} N m`].filter(Boolean);
   return [
     names.length > 1 ? `The ceilings of ${names.join(" and ")} cannot be met, alone or together.` : `The ceiling of the ${names[0]} cannot be met.`,
     ...(asked.length && reach.length ? [`Within these limits ${reach.join(" and ")} (all else left free); ${asked.length > 1 ? "the ceilings ask" : "the ceiling asks"} for ${asked.join(" and ")}.`] : []),
     ...(smallest ?? []).map((one) => {
       // a specific load is told as the load of its bearing
       const unit = one.ceiling_field.endsWith("_Nm") ? "N m" : "N";
-      return `By itself the ${one.response.replace(":", " ")} can come down to ${figure(one.smallest)} ${unit}; the ceiling of the ${limited(one.ceiling_field, closest.responses)} asks for ${figure(one.ceiling)} ${unit}.`;
+      return `By itself the ${one.response.replace(":", " ")} can ${worst}come down to ${figure(one.smallest)} ${unit}; the ceiling of the ${limited(one.ceiling_field, closest.responses)} asks for ${figure(one.ceiling)} ${unit}.`;
     }),
-    `Drawn is the closest compromise: ${figure(nearForce.peak_N)} N and ${figure(nearMoment.peak_Nm)} N m of first order.`,
+    `Drawn is the closest compromise: ${figure(nearForce.peak_N)} N and ${figure(nearMoment.peak_Nm)} N m of first order${worst ? " on the machine as it is given" : ""}.`,
   ];
 }
 

@@ -49,6 +49,7 @@ def _general(machine: Machine, reference_plane_m: float) -> Table:
         [
             ("kind", machine.kind),
             ("speed, rpm", machine.speed_rpm),
+            *_limit("largest speed, at which bolts hold, rpm", machine.overspeed_rpm),
             ("sense of rotation, seen from +z", machine.rotation),
             ("reference plane of the moments z, m", reference_plane_m),
             ("reference plane", "as given" if presence else "midway between the outermost throws"),
@@ -179,8 +180,17 @@ def _drive(machine: ReciprocatingMachine) -> Iterator[Block]:
     if entries:
         yield facts("Friction and flywheel", entries)
     if machine.bearings:
-        rows_of = [(bearing.name, bearing.position_m) for bearing in machine.bearings]
-        yield table("Main bearings", ["bearing", "#plane z, m"], rows_of)
+        heads = ["bearing", "#plane z, m"]
+        rows_of: list[tuple[str | float | None, ...]] = [
+            (bearing.name, bearing.position_m) for bearing in machine.bearings
+        ]
+        if any(bearing.diameter_m is not None or bearing.length_m is not None for bearing in machine.bearings):
+            heads += ["#diameter, m", "#length, m"]
+            rows_of = [
+                (*row, bearing.diameter_m, bearing.length_m)
+                for row, bearing in zip(rows_of, machine.bearings, strict=True)
+            ]
+        yield table("Main bearings", heads, rows_of)
 
 
 def _list(values: tuple[float, ...] | None) -> str | None:
@@ -282,6 +292,10 @@ def _places(title: str, webs: Sequence[Web]) -> Table:
     if any(least):
         heads.append("#smallest fitted mass, kg")
         rows = [(*row, mass) for row, mass in zip(rows, least, strict=True)]
+    forces = [web.max_centrifugal_force_N for web in webs]
+    if any(forces):
+        heads.append("#largest centrifugal force, N")
+        rows = [(*row, force) for row, force in zip(rows, forces, strict=True)]
     return table(title, heads, rows)
 
 

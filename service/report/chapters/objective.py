@@ -22,9 +22,21 @@ _OVER_THE_TURN = {
     "priorities": "goals in their order",
 }
 
+#: what may be weighed beside responses, in words
+_LOADS = {
+    "roll_weight": "roll moment",
+    "bearing_weight": "largest bearing load",
+    "bending_weight": "largest bending moment",
+}
+
 
 def _text(value: float | str | tuple[Priority, ...]) -> float | str:
-    return ", ".join(priority.goal for priority in value) if isinstance(value, tuple) else value
+    return ", ".join(map(_goal, value)) if isinstance(value, tuple) else value
+
+
+def _goal(priority: Priority) -> str:
+    """A goal, with what those after it may use of it."""
+    return priority.goal if not priority.allowance else f"{priority.goal} (allowance {100 * priority.allowance:g} %)"
 
 
 def _per(unit: str) -> str:
@@ -43,18 +55,25 @@ def objective(request: OptimizeRequest) -> Table:
     """Weights, ceilings and goals, as they hold."""
     goal, weight_of = request.objective, weights(request.machine, request.objective)
     count = active_responses(goal)
-    *rest, last = (response.label for response in count)
-    names = ", ".join(f"peak {name}" for name in rest)
+    # of goals in their order the loads are goals by themselves
+    fields = _LOADS if not goal.priorities else ("roll_weight",)
+    loads = [_LOADS[field] for field in fields if getattr(goal, field)]
+    *rest, last = (*(f"peak {response.label}" for response in count), *loads)
+    names = ", ".join(rest)
     combined = {
-        "sum": f"smallest weighted sum of {names} and peak {last}",
+        "sum": f"smallest weighted sum of {names} and {last}",
         "max": "smallest larger one of weighted peak force and weighted peak moment"
-        if len(count) == 2
-        else f"smallest of the largest of {names} and peak {last}, all weighted",
+        if len(rest) == 1
+        else f"smallest of the largest of {names} and {last}, all weighted",
     }
+    aim = combined[goal.combine]
+    if goal.priorities:
+        external = any(priority.goal == "external" for priority in goal.priorities)
+        aim = f"goals in their order; external: {aim}" if external else "goals in their order"
     return facts(
         "Objective",
         [
-            ("aim", combined[goal.combine]),
+            ("aim", aim),
             *(
                 (f"weight of the peak {response.label}, {_per(response.unit)}", float(weight_of[response.name]))
                 for response in count

@@ -5,7 +5,6 @@ from collections.abc import Iterator
 from schemas.answer.counterweights import every_counterweight
 from schemas.front.pareto import ParetoAnswer, ParetoFront, ParetoPoint, ParetoRequest, Reason
 from schemas.front.trade import TradedFront, TradedPoint
-from schemas.request.objective import Objective
 from service.common.figures import digits
 from service.report.blocks import Block, Cell, Chapter, Number, Paragraph, Table, table
 from service.report.chapters.counts import count_table
@@ -36,11 +35,11 @@ def traded(request: ParetoRequest, answer: ParetoAnswer) -> Iterator[Chapter]:
     for front in answer.fronts:
         budget = front.max_total_mass_kg
         limit = "no limit of the total mass" if budget is None else f"total mass up to {digits(budget)} kg"
-        yield Chapter(f"Front, {limit}: {front.status}", tuple(_front(request.objective, front)))
+        yield Chapter(f"Front, {limit}: {front.status}", tuple(_front(request, front)))
     for trade in answer.trades:
         budget = trade.max_total_mass_kg
         limit = "no limit of the total mass" if budget is None else f"total mass up to {digits(budget)} kg"
-        yield Chapter(f"Trade-off, {limit}: {trade.status}", tuple(_trade(request.objective, trade)))
+        yield Chapter(f"Trade-off, {limit}: {trade.status}", tuple(_trade(request, trade)))
     for count in answer.counts:
         budget = count.max_total_mass_kg
         limit = "no limit of the total mass" if budget is None else f"total mass up to {digits(budget)} kg"
@@ -59,11 +58,11 @@ def _bounds(answer: ParetoAnswer) -> Table:
     )
 
 
-def _front(objective: Objective, front: ParetoFront) -> Iterator[Block]:
+def _front(request: ParetoRequest, front: ParetoFront) -> Iterator[Block]:
     if front.infeasibility is not None:
-        yield from reachable(objective, front.infeasibility)
+        yield from reachable(request, front.infeasibility)
     if front.points:
-        across, off = objective.direction_weights, any(point.worst_case is not None for point in front.points)
+        across, off = request.objective.direction_weights, any(point.worst_case is not None for point in front.points)
         yield _points(front, off or (across.x, across.y) != (1.0, 1.0))
         if off:
             yield Paragraph(_WORST)
@@ -76,10 +75,10 @@ def _front(objective: Objective, front: ParetoFront) -> Iterator[Block]:
         )
 
 
-def _trade(objective: Objective, trade: TradedFront) -> Iterator[Block]:
+def _trade(request: ParetoRequest, trade: TradedFront) -> Iterator[Block]:
     """Any two or three responses: what each comes to alone, and the points between."""
     if trade.infeasibility is not None:
-        yield from reachable(objective, trade.infeasibility)
+        yield from reachable(request, trade.infeasibility)
         return
     heads = [f"#{response.response}, {response.unit}" for response in trade.responses]
     geared = any(point.balance_shafts for point in trade.points)

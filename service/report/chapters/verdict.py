@@ -6,7 +6,7 @@ from schemas.answer.answers import Certificate, OptimizeAnswer
 from schemas.answer.infeasibility import Infeasibility
 from schemas.answer.limits import CeilingField
 from schemas.base.responses import ceilings
-from schemas.request.objective import COSTS, Objective
+from schemas.request.objective import COSTS
 from schemas.request.requests import OptimizeRequest
 from service.report.blocks import Block, Chapter, Equation, Formula, Paragraph, Run, facts, figure_beside, prose, table
 from service.report.chapters.balance import best_set, best_set_label, response_rows
@@ -28,7 +28,7 @@ def result(request: OptimizeRequest, answer: OptimizeAnswer, built: AsBuilt | No
     """The answer in plain words and a few figures."""
     was, (_, left) = answer.residual.before, best_set(answer)
     if answer.infeasibility is not None:
-        words: list[Block] = list(reachable(request.objective, answer.infeasibility))
+        words: list[Block] = list(reachable(request, answer.infeasibility))
     else:
         words = [_certified(request, answer)]
     if built is not None:
@@ -85,8 +85,9 @@ def _percent(share: float) -> str:
     return "less than 0.00001 %" if 0 < share < 1e-7 else f"{100 * share:.2g} %"
 
 
-def reachable(goal: Objective, why: Infeasibility) -> Iterator[Block]:
+def reachable(request: OptimizeRequest, why: Infeasibility) -> Iterator[Block]:
     """Which ceilings cannot be met, and what can be reached."""
+    goal = request.objective
     names = " and ".join(f"the ceiling of the {_CEILINGS[name]}" for name in why.conflict)
     together = "cannot be met together" if len(why.conflict) > 1 else "cannot be met"
     yield Paragraph(
@@ -97,19 +98,23 @@ def reachable(goal: Objective, why: Infeasibility) -> Iterator[Block]:
     if why.scenarios:
         yield Paragraph(f"The ceilings of the scenarios {', '.join(why.scenarios)} conflict.", "warning")
     closest = why.closest.first_order
+    worst = _worst_case(request)
+    # such a peak stands above that of the compromise, which is of the first order of the machine as it is given
+    every = _of_all_orders(request)
+    kind = f"{every and ', first order'}{worst and ', as the machine is given'}"
     yield table(
-        "Smallest feasible peaks",
+        f"Smallest feasible peaks{every}{worst}",
         ["case", "#peak force, N", "#peak moment, N m"],
         [
             ("ceiling", goal.force_ceiling_N, goal.moment_ceiling_Nm),
             ("smallest, without the other ceiling", why.smallest_force_N, why.smallest_moment_Nm),
             ("certified not below", why.smallest_force_lower_bound_N, why.smallest_moment_lower_bound_Nm),
-            ("best compromise", closest.force.peak_N, closest.moment.peak_Nm),
+            (f"best compromise{kind}", closest.force.peak_N, closest.moment.peak_Nm),
         ],
     )
     if why.smallest:
         yield table(
-            "Other responses under a ceiling, each by itself",
+            f"Other responses under a ceiling, each by itself{worst}",
             ["response", "ceiling of the", "unit", "#ceiling", "#smallest", "#certified not below"],
             [
                 (
@@ -122,6 +127,14 @@ def reachable(goal: Objective, why: Infeasibility) -> Iterator[Block]:
                 for minimum in why.smallest
             ],
         )
+
+
+def _of_all_orders(request: OptimizeRequest) -> str:
+    return " of all orders" if request.objective.orders == "all" else ""
+
+
+def _worst_case(request: OptimizeRequest) -> str:
+    return ", in the worst case" if request.robust else ""
 
 
 def _of_ceiling(field: CeilingField) -> tuple[str, str]:
@@ -137,13 +150,14 @@ def certificate(request: OptimizeRequest, answer: OptimizeAnswer) -> Chapter:
     title, proof, why = "Certificate", answer.certificate, answer.infeasibility
     if proof is None:
         assert why is not None  # an answer without a certificate is infeasible
+        every = _of_all_orders(request)
         return Chapter(
             title,
             (
                 Paragraph(
                     "A lower bound in closed form on the smallest excess over the ceilings is above zero, which proves "
-                    "that no counterweights satisfy them. Bounds of the same kind certify the smallest peaks, each "
-                    "without the other ceiling: the force is never below "
+                    f"that no counterweights satisfy them. Bounds of the same kind certify the smallest peaks{every}, "
+                    f"each without the other ceiling{_worst_case(request)}: the force is never below "
                     f"{prose(why.smallest_force_lower_bound_N)} N and the moment never below "
                     f"{prose(why.smallest_moment_lower_bound_Nm)} N m."
                 ),

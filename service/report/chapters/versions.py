@@ -1,5 +1,6 @@
 """Versions of a design beside the one of the report: what differs, and what each comes to."""
 
+import math
 from collections.abc import Iterator, Mapping, Sequence
 from typing import Any, NamedTuple
 
@@ -15,7 +16,7 @@ from schemas.request.requests import AnalyzeRequest
 from service.common.figures import digits, typeset
 from service.common.validation import pointer
 from service.report.blocks import Block, Chapter, Paragraph, Table, table
-from service.report.chapters.balance import best_set
+from service.report.chapters.balance import best_set, best_set_label, carried
 from service.tables.whole_mass import whole_mass
 
 #: differences of a version that are listed; of more it is said how many there are
@@ -45,7 +46,7 @@ def compared(request: ReportRequest, answer: OptimizeAnswer) -> Iterator[Chapter
     if not request.versions:
         return
     columns = [
-        Column(_THIS, answer.status, best_set(answer)[1], whole_mass(answer), every_counterweight(answer)),
+        _optimum(_THIS, answer),
         *(_column(request, place) for place in range(len(request.versions))),
     ]
     yield Chapter("Versions compared", (_figures(columns), _weights(columns), *_differences(request)))
@@ -64,7 +65,16 @@ def _column(request: ReportRequest, place: int) -> Column:
         raise MissingInput(
             FieldProblem(("versions", place, *path), message) for path, message in error.problems
         ) from None
-    return Column(version.name, result.status, best_set(result)[1], whole_mass(result), every_counterweight(result))
+    return _optimum(version.name, result)
+
+
+def _optimum(name: str, answer: OptimizeAnswer) -> Column:
+    """What an optimisation came to: where none keep the ceilings, peaks and masses of the best compromise."""
+    fitted, left = carried(answer), best_set(answer)[1]
+    if answer.infeasibility is None:
+        return Column(name, answer.status, left, whole_mass(answer), fitted)
+    mass_kg = math.fsum(counterweight.mass_kg for counterweight in fitted)
+    return Column(name, f"{answer.status}: {best_set_label(answer)}", left, mass_kg, fitted)
 
 
 def _figures(columns: Sequence[Column]) -> Table:
