@@ -31,8 +31,8 @@ class AccuracyRequest(OptimizeRequest):
     def rules(self) -> Iterator[Rule]:
         yield from super().rules()
         yield from self.allowance_rules("the ladder has a row for every way to one choice, and none for cheaper ones")
-        for name in self.objective.over_the_turn:
-            yield Rule(True, ("objective", name), "the ladder is of the first order: not asked of a whole cycle")
+        several = bool(self.objective.priorities)
+        yield Rule(several, ("objective", "priorities"), "the ladder is of one goal: remove the order of several")
 
 
 class AccuracyRow(Model):
