@@ -13,14 +13,17 @@ import numpy as np
 
 from optimizer.numerics.arrays import Complex
 from optimizer.program.cuts.cut import Pool
+from optimizer.program.cuts.optimum import Conflict
 from optimizer.program.cuts.proof import proofs
 from optimizer.program.cuts.semi_infinite import Cuts, Problem
+from optimizer.program.optimum import optimum
 from optimizer.program.reference.assembled import GroupLimit, NoPoint, solved
 from optimizer.program.statement import Statement
+from optimizer.studies.accuracy.ladder import SOLVE_S
 from optimizer.studies.accuracy.methods import ANGLES, GAPS, POSITIONS, LadderProgram, Method, MethodResult, Run
 from optimizer.studies.accuracy.rivals.grid import angle_cuts, order_cuts, samples_of
 from optimizer.studies.accuracy.rivals.matrices import scaled
-from optimizer.studies.accuracy.uncertain import Steps, absence, parts
+from optimizer.studies.accuracy.uncertain import Steps, absence, parts, rounds_in_words
 
 #: orders of the shaft up to which a response is seen, and angles of a revolution at which it is then
 ORDERS, ANGLES_OF_ORDERS = (1, 2, 4, 8), 360
@@ -42,26 +45,24 @@ _ABSENT: Mapping[str, str] = {
 
 def revolution_methods(steps: Steps) -> Iterator[Method]:
     """All methods: parts of what may be off, orders, angles and cuts, then the service."""
+    worst = steps.robust(GAPS[-1], SOLVE_S)
     if steps.task.robust:
         yield from parts(steps)
     for most in ORDERS:
-        name = "order 1 alone" if most == 1 else f"orders up to {most}"
-        yield Method(
-            "orders", name, partial(_prepared, partial(_of_orders, most, steps.senses)), entries=_entries_of_orders
-        )
+        prepared = partial(_prepared, partial(_of_orders, most, steps.senses))
+        yield Method("orders", f"orders up to {most}", prepared, entries=_entries_of_orders)
     for angles in ANGLES:
         prepared = partial(_prepared, partial(_of_angles, angles))
         yield Method("sampled_angles", f"{angles} angles", prepared, POSITIONS, partial(_entries, angles))
     for rounds in ROUNDS:
-        yield Method("cuts", _setting(rounds), partial(_prepared_rounds, rounds))
+        yield Method("cuts", rounds_in_words(rounds), partial(_prepared_rounds, rounds))
     for gap in GAPS:
-        yield Method("service", f"relative gap {gap:.0e}", steps.run(gap, steps.whole))
+        # corners of masses are found on the way; without them the program is the whole
+        corners = bool(worst.scatters and worst.measures)
+        prepared = steps.run(gap, steps.whole) if corners else partial(_service, steps, gap)
+        yield Method("service", f"relative gap {gap:.0e}", prepared)
     for method, reason in _ABSENT.items():
         yield absence(method, reason)
-
-
-def _setting(rounds: int) -> str:
-    return "first cuts" if rounds == 0 else "1 round" if rounds == 1 else f"{rounds} rounds"
 
 
 def _prepared(cuts: Callable[[Problem, float], tuple[Cuts, bool]]) -> Run:
@@ -100,6 +101,14 @@ def _prepared_rounds(rounds: int) -> Run:
                 break
             result = _optimum(problem, pool.cuts, time_limit_s)
         return result
+
+    return run
+
+
+def _service(steps: Steps, relative_gap: float) -> Run:
+    def run(task: LadderProgram, position: float, time_limit_s: float) -> MethodResult | str:
+        result = optimum(_problem(task), relative_gap, False, time_limit_s)
+        return "no counterweights keep the ceilings" if isinstance(result, Conflict) else steps.result(result)
 
     return run
 

@@ -96,7 +96,7 @@ def parts(steps: "Steps") -> Iterator[Method]:
     for rounds in ROUNDS if len(scenarios) > 1 else ():
         if rounds <= len(scenarios):
             prepared = steps.run(SHARPEST, partial(steps.worst_scenarios, rounds))
-            yield Method("worst_scenarios", _rounds(rounds), prepared)
+            yield Method("worst_scenarios", rounds_in_words(rounds), prepared)
     worst = steps.robust(SHARPEST, SOLVE_S)
     if scenarios and (worst.scatters or any(worst.scatter)):
         yield Method("partly_off", "scenarios alone", steps.run(SHARPEST, partial(steps.without, _EVERYTHING)))
@@ -106,10 +106,11 @@ def parts(steps: "Steps") -> Iterator[Method]:
     if worst.scatters and worst.measures:
         yield Method("first_order", "corners by derivatives", steps.run(SHARPEST, steps.first_order))
         for rounds in ROUNDS:
-            yield Method("corners", _rounds(rounds), steps.run(SHARPEST, partial(steps.corners, rounds)))
+            yield Method("corners", rounds_in_words(rounds), steps.run(SHARPEST, partial(steps.corners, rounds)))
 
 
-def _rounds(count: int) -> str:
+def rounds_in_words(count: int) -> str:
+    """The setting of a method by rounds."""
     return "1 round" if count == 1 else f"{count} rounds"
 
 

@@ -21,7 +21,10 @@ def angle_cuts(problem: Problem, angles: int, position: float) -> Cuts:
     angles : in one revolution.
     position : of the grid, as a share of its step.
     """
-    return tuple(tuple(_cuts(problem, q, _grid(quantity, angles, position))) for q, quantity in _numbered(problem))
+    every = list[tuple[Cut, ...]]([()]) * len(problem.quantities)
+    for q, quantity in _deciding(problem):
+        every[q] = tuple(_cuts(problem, q, _grid(quantity, angles, position)))
+    return tuple(every)
 
 
 def order_cuts(problem: Problem, most: int, angles: int, senses: Mapping[str | None, float]) -> Cuts:
@@ -31,21 +34,21 @@ def order_cuts(problem: Problem, most: int, angles: int, senses: Mapping[str | N
     ----------
     senses : of rotation, by scenario, by which the shaft sees a vector turn less than the frame.
     """
-    every = list[tuple[Cut, ...]]()
-    for q, quantity in _numbered(problem):
+    every = list[tuple[Cut, ...]]([()]) * len(problem.quantities)
+    for q, quantity in _deciding(problem):
         grid = _grid(quantity, angles, 0.0)
         if quantity.measure == "rms" or problem.samples.cancelled[q]:
-            every.append(tuple(_cuts(problem, q, grid)))
+            every[q] = tuple(_cuts(problem, q, grid))
             continue
         sense = 0.0 if quantity.response.scalar else senses[quantity.scenario]
         values = low_orders(quantity.response.at(grid), most, quantity.response.period_deg, sense)
-        every.append(tuple(quantity.cut(*pair) for pair in zip(grid.tolist(), values.tolist(), strict=True)))
+        every[q] = tuple(quantity.cut(*pair) for pair in zip(grid.tolist(), values.tolist(), strict=True))
     return tuple(every)
 
 
 def samples_of(problem: Problem, angles: int) -> int:
     """Number of cuts at so many angles of a revolution, of all quantities."""
-    return sum(_grid(quantity, angles, 0.0).size for quantity in problem.quantities)
+    return sum(_grid(quantity, angles, 0.0).size for _, quantity in _deciding(problem))
 
 
 def low_orders(values: Complex, most: int, period_deg: float, sense: float) -> Complex:
@@ -62,8 +65,11 @@ def low_orders(values: Complex, most: int, period_deg: float, sense: float) -> C
     return low
 
 
-def _numbered(problem: Problem) -> Iterator[tuple[int, Quantity]]:
-    return iter(enumerate(problem.quantities))
+def _deciding(problem: Problem) -> Iterator[tuple[int, Quantity]]:
+    """Quantities that are weighed or limited, with their places; of others no cut counts."""
+    places = {member.quantity for group in problem.groups for member in group.weighed}
+    places |= {q for q, _ in problem.limited}
+    return ((q, problem.quantities[q]) for q in sorted(places))
 
 
 def _grid(quantity: Quantity, angles: int, position: float) -> Real:

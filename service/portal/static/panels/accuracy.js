@@ -26,7 +26,7 @@ export const accuracy = {
   id: "accuracy", title: "Accuracy against time",
   about: "Every method and setting, timed on this machine just now; down and to the left is better.",
   async draw(body, { request, ask }) {
-    const { angles: _angles, fidelity: _fidelity, ...rest } = request;
+    const { angles: _angles, ...rest } = request;
     const answer = await ask("v1/accuracy", { ...rest, repeats: 3 });
     if (answer.status !== "measured") {
       body.replaceChildren(h("p", {}, WORDS[answer.status] ?? answer.status));
