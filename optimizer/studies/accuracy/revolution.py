@@ -121,7 +121,7 @@ def _problem(task: LadderProgram) -> Problem:
 def _optimum(problem: Problem, cuts: Cuts, time_limit_s: float) -> MethodResult | str:
     """The optimum of finitely many cuts by clarabel."""
     statement = problem.outer(cuts)
-    data, scaling = scaled(statement, _TOLERANCE)
+    data, scaling = scaled(statement, _TOLERANCE, problem.begun)
     highest = statement.largest(statement.floor) / scaling.objective
     several = range(problem.goal_of_case.size)
     sums = [GroupLimit(problem.case_of == case, -float(np.sum(highest[problem.case_of == case]))) for case in several]
