@@ -49,11 +49,11 @@ def revolution_methods(steps: Steps) -> Iterator[Method]:
     if steps.task.robust:
         yield from parts(steps)
     for most in ORDERS:
-        prepared = partial(_prepared, partial(_of_orders, most, steps.senses))
-        yield Method("orders", f"orders up to {most}", prepared, entries=_entries_of_orders)
+        of_orders = partial(_prepared, partial(_of_orders, most, steps.senses))
+        yield Method("orders", f"orders up to {most}", of_orders, entries=_entries_of_orders)
     for angles in ANGLES:
-        prepared = partial(_prepared, partial(_of_angles, angles))
-        yield Method("sampled_angles", f"{angles} angles", prepared, POSITIONS, partial(_entries, angles))
+        of_angles = partial(_prepared, partial(_of_angles, angles))
+        yield Method("sampled_angles", f"{angles} angles", of_angles, POSITIONS, partial(_entries, angles))
     for rounds in ROUNDS:
         yield Method("cuts", rounds_in_words(rounds), partial(_prepared_rounds, rounds))
     for gap in GAPS:
