@@ -12,8 +12,10 @@ from optimizer.program.methods import cascade, empty_webs
 from optimizer.program.methods.optima import optima
 from optimizer.program.methods.single import Target, interior_point
 from optimizer.program.reference import solver
+from optimizer.solve import plates
 from tests.optimize.asking import single
 from tests.program.cases import random_statement
+from tests.studies.accuracy.test_choices import cut, twin
 
 #: time.thread_time() that is over
 OVER = 0.0
@@ -90,3 +92,29 @@ def test_the_status_names_the_limit(monkeypatch: pytest.MonkeyPatch) -> None:
     in_time = optimize(body | {"accuracy": {"time_limit_s": 30}})
     assert in_time.status == "inaccurate"
     assert "time limit" not in in_time.status_reason
+
+
+def test_plates_end_at_the_limit_too(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Equal plates are another search, and webs without dust are; neither begins when time is up."""
+    begun: list[str] = []
+
+    def counted(name: str) -> None:
+        own = getattr(plates, name)
+
+        def run(*arguments: Any) -> Any:
+            begun.append(name)
+            return own(*arguments)
+
+        monkeypatch.setattr(plates, name, run)
+
+    counted("alike")
+    counted("emptied")
+    body = {"machine": cut(twin())}
+    answers = [optimize(body | {"accuracy": {"time_limit_s": limit}}) for limit in (1e-9, 30)]
+    assert begun == ["alike"]
+    late, whole_time = answers
+    assert late.certificate is not None
+    assert whole_time.certificate is not None
+    assert late.certificate.lower_bound is not None
+    assert late.certificate.lower_bound <= whole_time.certificate.objective * (1.0 + 1e-12)
+    assert whole_time.status == "optimal"
