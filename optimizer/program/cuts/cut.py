@@ -68,14 +68,14 @@ class Cut(NamedTuple):
 
 def distinct(cuts: Sequence[Cut]) -> list[Cut]:
     """Cuts of one quantity without those that repeat one before them but for rounding."""
-    kept: list[Cut] = []
+    result: list[Cut] = []
     constant = np.array([cut.constant for cut in cuts])
     size = np.abs(constant)
     near = np.abs(constant[:, None] - constant) <= _ALIKE * np.maximum(size[:, None], size)
     for n, cut in enumerate(cuts):
         if not any(cut.alike(cuts[before]) for before in np.flatnonzero(near[n, :n]).tolist()):
-            kept.append(cut)
-    return kept
+            result.append(cut)
+    return result
 
 
 class Evaluation(NamedTuple):
