@@ -40,7 +40,7 @@ export const accuracy = {
     const methods = [...new Set(rows.map((row) => row.method))];
     body.replaceChildren(node, h("details", {}, h("summary", {}, "As a table"), choices
       ? table("Time, gap, mass and pieces", [...HEADS, "mass, kg", "pieces", "sizes", "limits"], rows.map(made))
-      : table("Methods and settings", HEADS, rows.map(cells))));
+      : table("Methods and settings", [...HEADS, "claim"], rows.map((row) => [...cells(row), number(row.claim_error, 2)]))));
     await plot(node, () => ({
       traces: methods.map((method, index) => {
         const own = rows.filter((row) => row.method === method && row.relative_error !== null);
