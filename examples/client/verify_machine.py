@@ -47,6 +47,7 @@ class Web(NamedTuple):
     fixed: Optional[Tuple[Number, float]] = None  # mass and angle of a weight that is there already
     limits: Tuple[Tuple[str, Number], ...] = ()  # those of its mass by their names [kg]
     plate: Optional[Plate] = None  # from which it is cut: then its radius is what the answer says
+    pull: Optional[Number] = None  # of a kilogram at the highest speed of its shaft [N], where bolts limit it
 
 
 NAMES = {"force": "N", "moment": "Nm"}
@@ -206,7 +207,7 @@ def _groups(place: Place) -> list[list[tuple[int, float, bool]]]:
 
 
 def web_of(place: Place, fastest: Number) -> Web:
-    """``fastest``: square of the highest speed."""
+    """``fastest``: square of the highest speed of the web's shaft."""
     most, sector = place / "max_mass_kg", place / "sector"
     edges = ((sector / "centre_deg").double(), (sector / "half_angle_deg").double(least=0)) if sector else None
     there, cut = place / "fixed", plate(place / "envelope") if place / "envelope" else None
@@ -217,6 +218,7 @@ def web_of(place: Place, fastest: Number) -> Web:
     limits = [("max_mass", most.number(least=0))] if most else []
     if cut is not None:
         return Web(name, where, ZERO, limit, edges, weight, (*limits, ("envelope", ZERO)), cut)
+    per_kg = None
     if bolts:
         per_kg = radius.number(least=0) * fastest
         if per_kg.low <= 0:
@@ -224,7 +226,7 @@ def web_of(place: Place, fastest: Number) -> Web:
         force = bolts.number(least=0) / per_kg
         limits.append(("max_centrifugal_force", force))
         limit = force if limit is None else min(limit, force, key=lambda number: number.high)
-    return Web(name, where, radius.number(least=0), limit, edges, weight, tuple(limits))
+    return Web(name, where, radius.number(least=0), limit, edges, weight, tuple(limits), None, per_kg)
 
 
 def _unbalance(place: Place) -> list[Mass]:

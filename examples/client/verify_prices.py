@@ -211,8 +211,8 @@ def stated_limits(
             per = 1.0
             if plate is not None and len(sizes) > 1:
                 raise NotCovered(place)
-            if name == "max_centrifugal_force":
-                per = radius * machine.fastest.middle().real
+            if name == "max_centrifugal_force" and web.pull is not None:
+                per = float(web.pull)
             yield Priced(name, web.name, binds / per, most * per, UNITS[name], name in names)
         if web.sector is not None:
             centre, half = web.sector

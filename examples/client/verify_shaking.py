@@ -170,7 +170,7 @@ def as_built(request: Place, machine: Machine) -> Fitted:
     for shaft in request / "machine" / "balance_shafts":
         ratio = (shaft / "speed_ratio").whole()
         for place in shaft / "webs":
-            web, entry = web_of(place, machine.fastest), entries.get((place / "name").text())
+            web, entry = web_of(place, machine.fastest * real(ratio * ratio)), entries.get((place / "name").text())
             product = (entry / "mass_kg").number() * web.radius if entry else ZERO
             unit = direction((entry / "angle_deg").double()) if entry else ONE
             ways = (unit, ZERO) if ratio > 0 else (ZERO, unit)

@@ -8,11 +8,11 @@ class Clock:
     """Runs with this thread's own time: what else a machine does changes no answer."""
 
     def __init__(self, limit_s: float, now: Callable[[], float] = time.thread_time) -> None:
-        self._now, self._until = now, now() + limit_s
+        self._now, self.until = now, now() + limit_s
 
     @property
     def left_s(self) -> float:
-        return self._until - self._now()
+        return self.until - self._now()
 
     def spent(self) -> bool:
         return self.left_s <= 0.0

@@ -52,7 +52,7 @@ def solved(
         statement = program.subset(n)
         statement = replace(statement, limits=replace(statement.limits, alike=alike))
         near = max(float(share[n]), _CLOSE * float(statement.at_rest))
-        target = Target(near, max(float(gap[n]), near), least_mass)
+        target = Target(near, max(float(gap[n]), near), least_mass, np.inf if clock is None else clock.until)
         answer = cascade(statement, target, interior_point(statement, target))
         points[n] = answer.unbalance
         if answer.conflict is None:

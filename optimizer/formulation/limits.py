@@ -22,6 +22,7 @@ from optimizer.program.limits import Limits
 from optimizer.program.sensitivity import ShadowPrices
 from schemas.answer.limits import MachineLimit, WebLimit
 from schemas.machine.machine import Machine
+from schemas.machine.reciprocating import balance_shafts
 
 #: a limit counts as touched when the quantity is nearer to it than this share of it. Optima may differ by
 #: 1e-6 of the objective, which is more than that of a mass
@@ -145,10 +146,17 @@ def _largest_force(machine: Machine) -> Real:
 
 
 def _force_per_kg(machine: Machine) -> Real:
-    """Centrifugal force of a kilogram on every web (..., K) at the highest speed, N."""
+    """Centrifugal force of a kilogram on every web (..., K) at the highest speed of its shaft, N."""
     fastest = machine.speed_rpm if machine.overspeed_rpm is None else machine.overspeed_rpm
     omega = np.asarray(fastest) * (np.pi / 30.0)
-    return web_radii(machine) * np.square(omega)[..., None]
+    return web_radii(machine) * (np.square(omega)[..., None] * np.square(_speed_ratios(machine)))
+
+
+@remembered
+def _speed_ratios(machine: Machine) -> Real:
+    """Turns of every web (K,) for one of the crankshaft: wherever a web of a balance shaft stands, by its name."""
+    ratios = {web.name: float(shaft.speed_ratio) for shaft in balance_shafts(machine) for web in shaft.webs}
+    return np.array([ratios.get(web.name, 1.0) for web in machine.webs])
 
 
 #: of every web, as the answer calls them and in its order; one more is one more entry

@@ -15,7 +15,7 @@ from optimizer.choices.discrete.options import EQUAL
 from optimizer.choices.feasible_set import Choice, FeasibleSet, SearchResult, Subproblem
 from optimizer.numerics.arrays import Complex
 from optimizer.program.ceilings import CEILING_TOLERANCE
-from optimizer.program.cuts.cut import Cut, Pool
+from optimizer.program.cuts.cut import Cut, Pool, distinct
 from optimizer.program.cuts.exact_penalty import under_levels
 from optimizer.program.cuts.optimum import CertifiedOptimum
 from optimizer.program.cuts.row_generation import FEW, MANY, single_group
@@ -142,7 +142,8 @@ def _first_cuts(program: Problem) -> list[list[Cut]]:
     for cuts, quantity in zip(cuts_of, program.quantities, strict=True):
         if quantity.measure == "peak":
             values = zip(angle.tolist(), quantity.response.at(angle).tolist(), strict=True)
-            cuts += [quantity.cut(at, value) for at, value in values]
+            # of what turns with the shaft alone every angle has the same
+            cuts[:] = distinct([*cuts, *(quantity.cut(at, value) for at, value in values)])
     return cuts_of
 
 

@@ -67,11 +67,11 @@ def cut_optimum(
     end = thread_time() + demand.time_limit_s
     stated, every = statement.alone(), np.ones(len(machine.webs), bool)
     whole = within_reach(stated)
-    task = _CutSearch(machine, demand, program.symmetric, whole, cut, demand.relative_gap, every)
-    outcome = task.optimum(end)
+    task = _CutSearch(machine, demand, program.symmetric, whole, cut, demand.relative_gap, every, end)
+    outcome = task.optimum()
     if whole is not stated:
         statement = replace(statement, limits=mapped(whole.limits, lambda array: array[0]))
-    return solution(program, statement, outcome, outcome.unbalance[0], demand.least_mass)
+    return solution(program, statement, outcome, outcome.unbalance[0], demand.least_mass, thread_time() >= end)
 
 
 class _JudgedCut(NamedTuple):
@@ -108,6 +108,7 @@ class _CutSearch:
     plates: Plates
     relative_gap: float  # target gap of webs in place of plates
     left: np.ndarray  # (K,) bool, webs that may carry something
+    until: float  # of this thread's own time, after which no more nodes are laid, and no further method begins
 
     @cached_property
     def kinds(self) -> np.ndarray:
@@ -121,13 +122,12 @@ class _CutSearch:
         """Yardstick of the objective (1,)."""
         return yardstick(self.whole)
 
-    def optimum(self, end: float) -> Optima:
-        """The best cut with its proof.
+    @property
+    def _late(self) -> bool:
+        return thread_time() >= self.until
 
-        Parameters
-        ----------
-        end : of this thread's own time, after which no more nodes are laid.
-        """
+    def optimum(self) -> Optima:
+        """The best cut with its proof."""
         nodes, rounds = self.guessed(first_nodes(self.plates)), list[_Round]()
         for _ in range(_ROUNDS):
             rounds.append(self.round(nodes))
@@ -136,7 +136,7 @@ class _CutSearch:
                 best = self.judged_alike(self.without_dust(outcome, nodes), nodes)
                 if best.status != "inaccurate":
                     return best.optima
-            if thread_time() > end:
+            if self._late:
                 break
             nodes = closer_nodes(nodes, self.opened(rounds[-1].called_for))
         # of those that are equally near the last
@@ -195,12 +195,12 @@ class _CutSearch:
 
     def _optimum(self, webs: Webs) -> tuple[Pieces, Optima]:
         laid = pieces(self.whole, self.plates, webs, self.left)
-        return laid, optima(laid.program, self.relative_gap, self.demand.least_mass)
+        return laid, optima(laid.program, self.relative_gap, self.demand.least_mass, self.until)
 
     def without_dust(self, outcome: _Round, nodes: Real) -> _Round:
         """The same with webs left empty that carry next to nothing, where what is proven of all holds for it."""
         left, allowed = self.left, min(self.relative_gap, OPTIMUM_SHARE)
-        while not outcome.proven.unreachable[0]:
+        while not (outcome.proven.unreachable[0] or self._late):
             empty = dust(self._masses(outcome.cut))
             if not empty.any():
                 break
@@ -221,7 +221,7 @@ class _CutSearch:
                 over = float(self.whole.objective(attempt.cut.unbalance)[0] - self._largest(outcome.proven))
                 if over > 0.0:
                     share -= max(1.01 * over / float(self.size[0]), (1.0 - _WITH_ROOM) * allowed)
-                if share <= 0.0:
+                if share <= 0.0 or self._late:
                     return outcome
                 # what is too heavy is so because the nodes lie about other plates
                 laid = closer_nodes(laid, self.opened(attempt.called_for))
@@ -248,7 +248,7 @@ class _CutSearch:
         best = self._judged_alike(outcome, nodes)
         if best.status != "optimal" or not unlike(self.plates, self.opened(best.optima.unbalance[0])):
             return best
-        for share in _ROOM_TO_BE_ALIKE:
+        for share in () if self._late else _ROOM_TO_BE_ALIKE:
             # the least mass spends all that an optimum may be off, so that none is left for plates to be alike
             task = replace(self, relative_gap=share * min(self.relative_gap, OPTIMUM_SHARE))
             attempt = self._judged_alike(outcome._replace(cut=task.round(nodes).cut), nodes)
@@ -257,7 +257,7 @@ class _CutSearch:
         return best
 
     def _judged_alike(self, outcome: _Round, nodes: Real) -> _JudgedCut:
-        cut = self._alike(outcome, nodes)
+        cut = outcome.cut if self._late else self._alike(outcome, nodes)
         # free counterweights beside equal plates may be negligible
         alike_first = cut is not outcome.cut and not dust(self._masses(cut)).any()
         for cut_of in (cut, outcome.cut) if alike_first else (outcome.cut,):

@@ -39,10 +39,6 @@ class BalanceShaft(Model):
     )
 
 
-#: fields of webs that those of balance shafts do not have
-_OF_THE_CRANKSHAFT = ("fixed", "max_centrifugal_force_N")
-
-
 class ReciprocatingMachine(Rotor):
     """A reciprocating compressor or engine of any layout."""
 
@@ -152,8 +148,7 @@ class ReciprocatingMachine(Rotor):
                 message = "this name is taken already; names of webs must be unique on all shafts"
                 yield Rule(web.name in names, (*path, "name"), message)
                 yield Rule(web.throw is not None, (*path, "throw"), "a balance shaft has no throws")
-                for name in _OF_THE_CRANKSHAFT:
-                    yield Rule(getattr(web, name) is not None, (*path, name), "of the crankshaft's webs only")
+                yield Rule(web.fixed is not None, (*path, "fixed"), "of the crankshaft's webs only")
                 names.add(web.name)
         places_of_castings = {path[0] for path, _ in self.catalogue_webs()}
         message = "with castings on balance shafts the crankshaft's are of the catalogue too: give one"

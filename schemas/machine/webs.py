@@ -146,8 +146,8 @@ class Web(Ruled):
     )
     max_centrifugal_force_N: Annotated[Annotated[float, positive(1e30)] | None, Unit("N")] = Field(
         None,
-        description="largest centrifugal force of the counterweight at overspeed_rpm, which its bolts bear; null is no"
-        " limit",
+        description="largest centrifugal force of the counterweight at overspeed_rpm, which its bolts bear; on a"
+        " balance shaft at its own speed then; null is no limit",
         examples=[None],
     )
     sector: Sector | None = Field(

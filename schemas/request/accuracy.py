@@ -12,7 +12,7 @@ from schemas.request.requests import OptimizeRequest
 
 
 class AccuracyRequest(OptimizeRequest):
-    """Measure what accuracy costs on a machine. `outputs`, `angles` and `fidelity` play no part.
+    """Measure what accuracy costs on a machine. `outputs` and `angles` play no part.
 
     Nor does `accuracy`, but for the time limit where counterweights are chosen.
     """
@@ -31,8 +31,8 @@ class AccuracyRequest(OptimizeRequest):
     def rules(self) -> Iterator[Rule]:
         yield from super().rules()
         yield from self.allowance_rules("the ladder has a row for every way to one choice, and none for cheaper ones")
-        for name in self.objective.over_the_turn:
-            yield Rule(True, ("objective", name), "the ladder is of the first order: not asked of a whole cycle")
+        several = bool(self.objective.priorities)
+        yield Rule(several, ("objective", "priorities"), "the ladder is of one goal: remove the order of several")
 
 
 class AccuracyRow(Model):
@@ -47,7 +47,8 @@ class AccuracyRow(Model):
         "nominal: the optimum with nothing off; partly_off: with counterweights, masses or scenarios alone; "
         "first_order: with masses at corners that are worst by derivatives at the nominal optimum; corners: at those "
         "that so many rounds know. With scenarios also one_scenario: the optimum of one by itself; worst_scenarios: of "
-        "those that so many rounds know",
+        "those that so many rounds know. Over a revolution also orders: responses without the orders above some, at "
+        "360 angles; cuts: responses at the angles of the peaks of so many rounds",
         examples=["sampled_angles"],
     )
     setting: str = Field(description="what is varied within the method", examples=["36 angles"])
@@ -218,7 +219,9 @@ class ProgramSize(Model):
     """Size of the program behind the ladder."""
 
     webs: int = Field(description="webs that can carry a counterweight", examples=[4])
-    norm_terms: int = Field(description="norms in the objective", examples=[2])
+    norm_terms: int = Field(
+        description="norms in the objective; over a revolution responses, each with one at every angle", examples=[2]
+    )
     ceilings: int = Field(description="ceilings on peaks", examples=[0])
     sectors: int = Field(description="webs with a sector", examples=[0])
     mass_budget: bool = Field(description="whether the total mass is limited", examples=[False])

@@ -50,7 +50,7 @@ class Accuracy(Model):
         gt=0,
         le=30,
         description="computing time after which a search over a revolution or among"
-        " discrete choices ends and says its gap [s]",
+        " discrete choices ends and says its gap, and no further method begins where one does not suffice [s]",
         examples=[5.0],
     )
 

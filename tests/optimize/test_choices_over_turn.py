@@ -173,3 +173,21 @@ def test_rows_of_a_sweep() -> None:
     rows = table(request).to_pylist()
     assert [assert_row_is_the_single_answer(request, row) for row in rows] == ["optimal"] * 2
     assert all(row["method"] in (EXHAUSTED, TREE) for row in rows)
+
+
+def test_choices_of_a_machine_that_only_turns_have_a_cut_for_each_load() -> None:
+    """Regression: every load had a cut at each of 24 angles, all of them equal, and a tree took nine times as long."""
+    throws = [
+        {"position_m": 0.2 * n, "crank_radius_m": 0.1, "crank_angle_deg": 90.0 * n, "rotating_mass_kg": 9.0, "rows": []}
+        for n in range(2)
+    ]
+    masses = {"min_fitted_mass_kg": 10.0, "max_mass_kg": 20.0}
+    webs = [
+        {"name": f"w{n}", "throw": n, "position_m": 0.2 * n, "counterweight_radius_m": 0.1, **masses} for n in range(2)
+    ]
+    ends = [{"name": f"b{n}", "position_m": 0.4 * n - 0.1} for n in range(2)]
+    machine = {"kind": "reciprocating", "speed_rpm": 600, "throws": throws, "webs": webs, "bearings": ends}
+    answer = optimize({"machine": machine, "objective": {"force_weight": 0, "moment_weight": 0, "bearing_weight": 1}})
+    assert answer.status == "optimal"
+    assert answer.certificate is not None
+    assert answer.certificate.cuts == 2

@@ -188,9 +188,9 @@ def test_scenarios_that_decide_nothing_cost_no_finer_numbers(monkeypatch: pytest
     norms, own = list[int](), stage_ends.solve_in
 
     def counted(precision: Precision) -> Any:
-        def solved(data: Any, *rest: Any) -> Any:
+        def solved(until: float, data: Any, *rest: Any) -> Any:
             norms.append(data.row.size)
-            return own(precision)(data, *rest)
+            return own(precision)(until, data, *rest)
 
         return solved
 

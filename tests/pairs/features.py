@@ -291,6 +291,7 @@ FEATURES: Mapping[str, Feature] = {
     "balance shaft forwards": partial(_balance_shafts, ratio=1),
     "balance shaft of order 2": partial(_balance_shafts, ratio=2),
     "least fitted on a shaft": partial(_balance_shafts, ratio=-1, min_fitted_mass_kg=3.0),
+    "bolts on a shaft": partial(_balance_shafts, ratio=2, max_centrifugal_force_N=300.0),
     "castings on a shaft": partial(
         _balance_shafts, ratio=-1, catalogue_masses_kg=[2.0, 4.0], hole_angles_deg=[90.0, 200.0, 310.0]
     ),

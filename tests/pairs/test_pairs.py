@@ -83,6 +83,19 @@ def test_all_ladders_with_scenarios(base: str, scenarios: str) -> None:
 
 
 @pytest.mark.nightly
+@pytest.mark.parametrize("goal", ["orders all", "bearing weight", "bearing rms", "bending weight", "roll weight"])
+@pytest.mark.parametrize("base", BASES)
+def test_all_ladders_over_a_revolution(base: str, goal: str) -> None:
+    faults = [
+        f"{_short((base, (goal, name)))} | {fault}"
+        for name in FEATURES
+        for fault in [accuracy_fault(base, (goal, name))]
+        if fault is not None
+    ]
+    assert not faults
+
+
+@pytest.mark.nightly
 @pytest.mark.parametrize("block", range(_BLOCKS))
 def test_all_pairs_with_balance_shafts(block: int) -> None:
     faults = [

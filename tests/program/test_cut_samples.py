@@ -1,6 +1,7 @@
 """Samples of quantities over the turn: what they tell is true, and close to peaks and floors."""
 
 import itertools
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -11,7 +12,7 @@ from optimizer.numerics.enclosing_circle import smallest_circle
 from optimizer.outputs.registry import prepare
 from optimizer.program.cuts import samples
 from optimizer.program.cuts.brackets import Brackets
-from optimizer.program.cuts.cut import EXACT, Quantity, Scatter
+from optimizer.program.cuts.cut import EXACT, Evaluation, Pool, Quantity, Scatter, distinct
 from optimizer.program.cuts.dominance import deciding, spare
 from optimizer.program.cuts.samples import Samples
 from optimizer.responses.curve import TurnResponse, floor, peaks
@@ -202,3 +203,22 @@ def test_a_parabola_is_highest_at_its_vertex_or_at_an_end(
     array, peak = samples._vertex(around, np.full((1, 2), -1))
     assert array == pytest.approx(np.array([[step, 0.0]]), abs=1e-12)
     assert peak == pytest.approx(np.array([[highest, 1.0]]))
+
+
+def test_equal_norms_are_one_cut_whatever_their_angle() -> None:
+    """Analytic: of what turns with the shaft all angles are one norm; of a quarter turn's symmetry there are two."""
+    still = TurnResponse("bearing", "N", np.ones(2), FourierCurves(np.zeros(1), np.array([[3.0 + 4.0j]])), 0)
+    twice = TurnResponse("bearing", "N", np.ones(2), FourierCurves(np.array([2.0]), np.array([[1.0 + 0.0j]])), 0)
+    angles = np.array([0.0, 0.5, 1.0, 1.5]) * np.pi
+    for response, count in ((still, 1), (twice, 2)):
+        entry = Quantity(response)
+        cuts = [entry.cut(angle, value) for angle, value in zip(angles.tolist(), response.at(angles), strict=True)]
+        assert len(distinct(cuts)) == count
+        # beside what turns by itself no two angles are the same norm
+        moving = Quantity(replace(response, turning=np.array([1.0, 0.0])))
+        cuts = [moving.cut(angle, value) for angle, value in zip(angles.tolist(), response.at(angles), strict=True)]
+        assert len(distinct(cuts)) == 4
+        pool = Pool([cuts[:1]], EXACT)
+        again = [Evaluation(9.0, 9.0, cut) for cut in cuts]
+        assert pool.add([again], np.zeros(2, complex), np.zeros(1))
+        assert pool.count() == 4

@@ -71,7 +71,7 @@ def test_what_bolts_hold(limited: bool) -> None:
 def test_bolts_hold_light_counterweights_too_and_no_plates() -> None:
     """Analytic: what has any mass is held; a web without, and what is cut from a plate, is not in the table."""
     bolted: Any = SimpleNamespace(
-        overspeed_rpm=None, speed_rpm=500.0, webs=[SimpleNamespace(max_centrifugal_force_N=9.0)]
+        overspeed_rpm=None, speed_rpm=500.0, every_web=[SimpleNamespace(max_centrifugal_force_N=9.0)]
     )
     light, none, heavy = ("light", 1e-3, None, 0.4), ("none", 0.0, None, 0.0), ("heavy", 30.0, None, 900.0)
     weights: Any = [

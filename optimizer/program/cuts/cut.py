@@ -55,9 +55,27 @@ class Cut(NamedTuple):
         return self.floor + float(abs(vector.real if self.scalar else vector)) + scatter.of(self.influence, u)
 
     def alike(self, other: "Cut") -> bool:
-        """Whether both are of one angle and, beside a jump, of one side of it: they differ by rounding."""
-        apart = abs(self.constant - other.constant) > _ALIKE * max(abs(self.constant), abs(other.constant))
-        return self.angle_deg is not None and self.angle_deg == other.angle_deg and not apart
+        """Whether both are one norm of a peak, of one angle or of several: they differ by rounding.
+
+        Beside a jump there are two of one angle. Of a response that stands still all angles have the same.
+        """
+        if self.angle_deg is None or other.angle_deg is None:
+            return False
+        if abs(self.constant - other.constant) > _ALIKE * max(abs(self.constant), abs(other.constant)):
+            return False
+        return self.angle_deg == other.angle_deg or bool(np.array_equal(self.influence, other.influence))
+
+
+def distinct(cuts: Sequence[Cut]) -> list[Cut]:
+    """Cuts of one quantity without those that repeat one before them but for rounding."""
+    result: list[Cut] = []
+    constant = np.array([cut.constant for cut in cuts])
+    size = np.abs(constant)
+    near = np.abs(constant[:, None] - constant) <= _ALIKE * np.maximum(size[:, None], size)
+    for n, cut in enumerate(cuts):
+        if not any(cut.alike(cuts[before]) for before in np.flatnonzero(near[n, :n]).tolist()):
+            result.append(cut)
+    return result
 
 
 class Evaluation(NamedTuple):

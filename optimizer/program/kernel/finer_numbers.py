@@ -5,8 +5,10 @@ digits, or, for more webs, numpy's longdouble (64 bits of mantissa on x86; where
 nothing).
 """
 
+import time
 from collections.abc import Callable, Sequence
 from contextlib import AbstractContextManager, nullcontext
+from contextvars import ContextVar
 from decimal import MAX_EMAX, MIN_EMIN, Context, Decimal, localcontext
 from functools import cache
 from types import FunctionType, ModuleType, SimpleNamespace
@@ -122,16 +124,44 @@ def _literal(value: Any, number: Callable[[float], Any]) -> Any:
     return number(value) if type(value) is float else value
 
 
+class OutOfTime(Exception):
+    """The time limit was over before finer numbers came to an end."""
+
+
+#: time.thread_time() at which the search of this thread ends
+_UNTIL: ContextVar[float] = ContextVar("until", default=np.inf)
+
+
+def _watched(function: Callable[..., None]) -> Callable[..., None]:
+    """A function of every step, that ends the search where time is up: a step may take half a second."""
+
+    def step(*arguments: Any) -> None:
+        if time.thread_time() >= _UNTIL.get():
+            raise OutOfTime
+        function(*arguments)
+
+    return step
+
+
 @cache
 def solve_in(precision: Precision) -> Callable[..., Any]:
-    """:func:`optimizer.program.kernel.interior_point.solve` in other numbers; its arrays come back as doubles."""
-    solve = interpreted(precision.numpy(), precision.number)["solve"]
+    """:func:`optimizer.program.kernel.interior_point.solve` in other numbers; its arrays come back as doubles.
 
-    def solved(data: Any, least_mass: bool, *rest: Any) -> Any:
-        with precision.arithmetic():
-            # the data in those numbers as well, or their products are rounded before anything is added to them
-            data = data._make(a if a.dtype == np.int64 else precision.array(a) for a in data)
-            solution = solve(data, least_mass, *(precision.array(array) for array in rest))
+    Before its arguments stands the time.thread_time() after which it raises :class:`OutOfTime`.
+    """
+    space = interpreted(precision.numpy(), precision.number)
+    space["residuals"] = _watched(space["residuals"])
+    solve = space["solve"]
+
+    def solved(until: float, data: Any, least_mass: bool, *rest: Any) -> Any:
+        own = _UNTIL.set(until)
+        try:
+            with precision.arithmetic():
+                # the data in those numbers as well, or their products are rounded before anything is added to them
+                data = data._make(a if a.dtype == np.int64 else precision.array(a) for a in data)
+                solution = solve(data, least_mass, *(precision.array(array) for array in rest))
+        finally:
+            _UNTIL.reset(own)
         return tuple(np.asarray(values, dtype=float) for values in solution)
 
     return solved

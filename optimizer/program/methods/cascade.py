@@ -15,7 +15,7 @@ import numpy as np
 
 from optimizer.numerics.arrays import Complex
 from optimizer.program.certificate import Multipliers, nothing_proven, objective_lower_bound
-from optimizer.program.kernel.finer_numbers import Precision, finest
+from optimizer.program.kernel.finer_numbers import OutOfTime, Precision, finest
 from optimizer.program.methods.compiled import ENOUGH, TARGET, suits_kernel
 from optimizer.program.methods.feasibility_phase import (
     AMPLE,
@@ -50,6 +50,7 @@ def cascade(statement: Statement, target: Target, quick: StagePair) -> ConeSolut
     -------
     ConeSolution, whose gap tells how far it is certified and whose excess whether the ceilings are kept
     (if neither could be decided, on the very boundary, they are not); or the proof that they cannot be.
+    Where time is up the methods that have begun are the last.
     """
     find = _under_ceilings if statement.ceilings.names else _by_all
     solution = find(statement, target, quick)
@@ -80,7 +81,7 @@ def _snap(statement: Statement, target: Target, solution: ConeSolution) -> ConeS
 
 def _under_ceilings(statement: Statement, target: Target, quick: StagePair) -> ConeSolution:
     """With ceilings: first whether they can be kept, and with how much room (docs/mathematics.md section 9)."""
-    nearest = smallest_excess(statement)
+    nearest = smallest_excess(statement, target.until)
     if nearest.lower_bound > CEILING_ROUNDING:
         # that ceilings cannot be kept is a finding of the reference solver alone
         method = CONE_PROGRAM if nearest.unbalance.size else CLOSED_FORM
@@ -94,7 +95,8 @@ def _under_ceilings(statement: Statement, target: Target, quick: StagePair) -> C
             return replace(solution, certify_s=solution.certify_s + nearest.certify_s)
     # what stands on the edge, or is too steep to be proven, takes up the tolerance of its ceilings
     higher = raised(statement)
-    quick = interior_point(higher, target, inside=nearest.unbalance)
+    if not target.late:
+        quick = interior_point(higher, target, inside=nearest.unbalance)
     solution = quick.lightest if quick.certified else _by_all(higher, target, quick, nearest.unbalance)
     return proven_again(statement, replace(solution, certify_s=solution.certify_s + nearest.certify_s))
 
@@ -116,13 +118,13 @@ def _by_all(
     quick = lightened(statement, target, polished(statement, target, quick, inside))
     if quick.certified:
         return quick.lightest
-    solution = smallest_objective(statement, _SHARPNESS * target.share, quick.smallest)
+    solution = smallest_objective(statement, _SHARPNESS * target.share, quick.smallest, lambda _: target.late)
     if statement.row.size == 1 and statement.limits.radius.size and solution.gap > target.demand:
         solution = _single_term(statement, solution)
     if target.least_mass and solution.below_ceilings:
-        solution = least_mass(statement, solution, target.share, _MASS_GAP, quick.lightest)
+        solution = least_mass(statement, solution, target.share, _MASS_GAP, quick.lightest, lambda _: target.late)
     precision = finest(statement.limits.radius.size) if finer and suits_kernel(statement) else None
-    if precision is None or enough(solution, target):
+    if precision is None or enough(solution, target) or target.late:
         return solution
     return _in_finer_numbers(statement, target, solution, precision, inside)
 
@@ -137,7 +139,10 @@ def _in_finer_numbers(
     rows = near_rows(statement, solution.unbalance)
     while True:
         active = ActiveRows.of(statement, rows)
-        fine = _finer(active.program, target, precision, inside)
+        try:
+            fine = _finer(active.program, target, precision, inside)
+        except OutOfTime:
+            return solution
         whole = active.over_all(statement, fine.lightest)
         above = near_rows(statement, whole.unbalance) & ~rows
         if not np.any(above) or whole.objective <= fine.lightest.objective:

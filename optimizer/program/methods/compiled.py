@@ -57,6 +57,7 @@ def stage_solutions(
     least_mass: bool,
     precision: Precision | None = None,
     at_least: Real | float = 0.0,
+    until: float = np.inf,
 ) -> StageSolutions:
     """Both stages of N statements of one shape, one leading axis (N,).
 
@@ -68,11 +69,13 @@ def stage_solutions(
     demand : (N,) target gap; one above the share is met by less than the best.
     precision : solve in finer numbers, interpreted: a thousand times slower.
     at_least : (N,) lower bound of the objective under the ceilings, which may be far more than at rest.
+    until : time.thread_time() after which finer numbers raise
+        :class:`optimizer.program.kernel.finer_numbers.OutOfTime`; compiled ones end by themselves.
     """
     if precision is not None:
         finest = precision.finest
         finer = Tolerances(1e-7, finest, 100 * finest, precision.mass, 0.1 * CEILING_ROUNDING)
-        solved = solve_stages(statement, share, least_mass, finer, in_finer_numbers(precision), at_least)
+        solved = solve_stages(statement, share, least_mass, finer, in_finer_numbers(precision, until), at_least)
         return _judged(statement, share, demand, least_mass, solved)
     (discs,) = suits_discs(statement, least_mass).nonzero()
     level = at_least if isinstance(at_least, np.ndarray) else np.full(share.shape, at_least)

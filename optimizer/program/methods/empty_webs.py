@@ -5,6 +5,7 @@ is within the limits of all webs, so that the proof for these limits holds for i
 taken where it is an optimum by that proof; a web that every optimum needs keeps its counterweight.
 """
 
+import time
 from dataclasses import replace
 from typing import NamedTuple
 
@@ -45,7 +46,12 @@ class Optimum(NamedTuple):
 
 
 def leave_empty(
-    statement: Statement, solutions: Solutions, share: Real, least_mass: bool, unreachable: np.ndarray | None = None
+    statement: Statement,
+    solutions: Solutions,
+    share: Real,
+    least_mass: bool,
+    unreachable: np.ndarray | None = None,
+    until: float = np.inf,
 ) -> None:
     """Take dust away in place from answers of N programs, as far as they stay optima.
 
@@ -55,10 +61,11 @@ def leave_empty(
     share : (N,) how far above the smallest objective an optimum may be.
     unreachable : (N,) bool, programs that stay as they are: without any of the webs what comes closest to the ceilings
         is no closer. None is none.
+    until : time.thread_time() after which no web is tried any more: each is a solve of its own.
     """
     if statement.limits.radius.shape[-1] < 2:
         return
-    if all_true(solutions.clean):
+    if all_true(solutions.clean) or time.thread_time() >= until:
         return
     unclean = np.flatnonzero(~solutions.clean if unreachable is None else ~(solutions.clean | unreachable))
     masses = np.abs(solutions.unbalance[unclean]) / statement.limits.radius[unclean]
@@ -89,7 +96,7 @@ def leave_empty(
         place, n = np.array([k]), own[[k]]
         best = _emptied(
             subset.subset(place), old.subset(n), new.subset(place) if success[k] else None, empty[n],
-            optimum.subset(n), part[n], least_mass,
+            optimum.subset(n), part[n], least_mass, until,
         )  # fmt: skip
         _put(solutions, programs[n], best)
 
@@ -109,6 +116,7 @@ def _emptied(
     optimum: Optimum,
     share: Real,
     least_mass: bool,
+    until: float,
 ) -> Points:
     """One point with as many empty webs as an optimum allows, all at once or one by one.
 
@@ -118,6 +126,8 @@ def _emptied(
     """
     best, empty = old, np.zeros(pattern.shape, bool)
     for number in range(_ROUNDS):
+        if time.thread_time() >= until:
+            return best
         nothing = pattern if number == 0 else _dusty(program, best.unbalance)
         if not nothing.any():
             return best
@@ -129,6 +139,8 @@ def _emptied(
         best, empty = new, empty | nothing
     mass = np.abs(best.unbalance[0]) / program.limits.radius[0]
     for web in np.argsort(mass):
+        if time.thread_time() >= until:
+            break
         nothing = _dusty(program, best.unbalance)
         if nothing[0, web]:
             alone = nothing & _unit(program, int(web))

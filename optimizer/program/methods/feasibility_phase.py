@@ -1,5 +1,6 @@
 """On the edge of what can be reached: whether ceilings can be kept, and with how much room."""
 
+from contextlib import suppress
 from dataclasses import replace
 
 import numpy as np
@@ -11,7 +12,7 @@ from optimizer.program.certificate import (
     nothing_proven,
     objective_lower_bound,
 )
-from optimizer.program.kernel.finer_numbers import EXTENDED
+from optimizer.program.kernel.finer_numbers import EXTENDED, OutOfTime
 from optimizer.program.methods.compiled import StageSolutions, stage_solutions
 from optimizer.program.methods.single import Target, interior_point
 from optimizer.program.reference.solver import smallest_objective
@@ -26,17 +27,25 @@ _RAISED = CEILING_TOLERANCE - CEILING_ROUNDING
 _PRINTED = 1e-13
 
 
-def smallest_excess(statement: Statement) -> ConeSolution:
-    """The smallest largest excess over the ceilings, closely enough for its sign and the room below them."""
+def smallest_excess(statement: Statement, until: float = np.inf) -> ConeSolution:
+    """The smallest largest excess over the ceilings, closely enough for its sign and the room below them.
+
+    Parameters
+    ----------
+    until : time.thread_time() after which the methods that have begun are the last.
+    """
     program = statement.excess()
-    target = Target(CEILING_TOLERANCE, CEILING_TOLERANCE, False)
+    target = Target(CEILING_TOLERANCE, CEILING_TOLERANCE, False, until)
     solution = interior_point(program, target).smallest
     if not _tells(solution) and statement.limits.radius.size <= EXTENDED.most_webs:
         # sharper than the reference solver, and less work than its tries
-        finer = interior_point(program, target, EXTENDED).smallest
-        better, worse = (finer, solution) if finer.objective < solution.objective else (solution, finer)
-        solution = better.bounded(worse.lower_bound, worse.multipliers)
-    return solution if _tells(solution) else smallest_objective(program, _PRINTED, solution, _tells)
+        with suppress(OutOfTime):
+            finer = interior_point(program, target, EXTENDED).smallest
+            better, worse = (finer, solution) if finer.objective < solution.objective else (solution, finer)
+            solution = better.bounded(worse.lower_bound, worse.multipliers)
+    if _tells(solution):
+        return solution
+    return smallest_objective(program, _PRINTED, solution, lambda best: _tells(best) or target.late)
 
 
 def smallest_excesses(statement: Statement) -> StageSolutions:

@@ -3,6 +3,7 @@
 All are solved side by side by the compiled interior point; what it does not certify goes down the cascade one by one.
 """
 
+import time
 from dataclasses import fields, replace
 from operator import attrgetter
 from typing import Any
@@ -76,7 +77,7 @@ class Optima(Solutions):
         )
 
 
-def optima(statement: Statement, relative_gap: float, least_mass: bool) -> Optima:
+def optima(statement: Statement, relative_gap: float, least_mass: bool, until: float = np.inf) -> Optima:
     """Certified optima of N statements of one shape, one leading axis (N,); each as if it were alone.
 
     Parameters
@@ -84,21 +85,22 @@ def optima(statement: Statement, relative_gap: float, least_mass: bool) -> Optim
     statement : programs whose limits are finite (:func:`optimizer.program.methods.implied_bounds.within_reach`).
     relative_gap : target gap, relative to the objective without counterweights.
     least_mass : take the least total mass among the optima.
+    until : time.thread_time() after which the methods that have begun are the last.
     """
     alike = statement.limits.alike
     if alike is not None and alike.plain:
         # no proof says otherwise: the terms are the same, and so are the multipliers
-        answer = optima(united(statement, alike), relative_gap, least_mass)
+        answer = optima(united(statement, alike), relative_gap, least_mass, until)
         return replace(answer, unbalance=apart(answer.unbalance, alike))
     if not statement.reaches.idle:
-        return _optima(statement, relative_gap, least_mass)
+        return _optima(statement, relative_gap, least_mass, until)
     carries = statement.limits.reach > 0
     # webs that cannot carry anything are left out of their programs
     patterns, inverse = np.unique(carries, axis=0, return_inverse=True)
     parts, places = [], []
     for k, webs in enumerate(patterns):
         programs = np.flatnonzero(inverse.reshape(-1) == k)
-        part = _optima(statement.subset(programs).only(webs), relative_gap, least_mass)
+        part = _optima(statement.subset(programs).only(webs), relative_gap, least_mass, until)
         everywhere = np.zeros((programs.size, webs.size), complex)
         everywhere[:, webs] = part.unbalance
         parts.append(replace(part, unbalance=everywhere))
@@ -106,24 +108,25 @@ def optima(statement: Statement, relative_gap: float, least_mass: bool) -> Optim
     return side_by_side(parts, np.argsort(np.concatenate(places)))
 
 
-def _optima(statement: Statement, relative_gap: float, least_mass: bool) -> Optima:
+def _optima(statement: Statement, relative_gap: float, least_mass: bool, until: float) -> Optima:
     """Of programs whose webs can all carry something."""
     size = yardstick(statement)
     share, demand = min(OPTIMUM_SHARE, relative_gap) * size, relative_gap * size
     stages = stage_solutions(statement, share, demand, least_mass) if suits_kernel(statement) else None
-    if stages is not None:
+    if stages is not None and time.thread_time() < until:
         settle_without_slack_rows(statement, share, demand, least_mass, stages)
     answer = _nothing(statement) if stages is None else _compiled(statement, stages)
     left = np.arange(size.size) if stages is None else _uncertified(stages)
     if stages is not None and left.size and statement.ceilings.names:
         left = _without_unreachable(statement, answer, left)
     for n in left.tolist():
-        program, target = statement.subset(n), Target(float(share[n]), float(demand[n]), least_mass)
+        program, target = statement.subset(n), Target(float(share[n]), float(demand[n]), least_mass, until)
         quick = (
             interior_point(program, target) if stages is None else only(program, target, stages.subset(np.array([n])))
         )
         _put(answer, n, cascade(program, target, quick))
-    leave_empty(statement, answer, share, least_mass, answer.unreachable if any_true(answer.unreachable) else None)
+    unreachable = answer.unreachable if any_true(answer.unreachable) else None
+    leave_empty(statement, answer, share, least_mass, unreachable, until)
     return answer
 
 

@@ -1,5 +1,6 @@
 """One program as a batch of one: where the interior point ended, and whether that is enough."""
 
+import time
 from dataclasses import replace
 from typing import NamedTuple
 
@@ -20,6 +21,12 @@ class Target(NamedTuple):
     share: float  # how far above the smallest objective an optimum may be, in units of the objective
     demand: float  # certified gap
     least_mass: bool
+    until: float = np.inf  # time.thread_time() after which no further method begins
+
+    @property
+    def late(self) -> bool:
+        """Whether what has been found has to do."""
+        return time.thread_time() >= self.until
 
 
 class StagePair(NamedTuple):
@@ -38,6 +45,11 @@ def interior_point(
     Parameters
     ----------
     inside : a point that keeps the ceilings, or nearly so.
+
+    Raises
+    ------
+    OutOfTime
+        if finer numbers take longer than there is time.
     """
     radius = statement.limits.radius
     if radius.size == 0 or not suits_kernel(statement):
@@ -46,7 +58,7 @@ def interior_point(
         return StagePair(resting, resting, False)
     share, demand = np.array([target.share]), np.array([target.demand])
     at_least = 0.0 if inside is None else float(statement.objective(inside))
-    stages = stage_solutions(statement.alone(), share, demand, target.least_mass, precision, at_least)
+    stages = stage_solutions(statement.alone(), share, demand, target.least_mass, precision, at_least, target.until)
     return only(statement, target, stages, precision.name if precision else INTERIOR_POINT)
 
 

@@ -148,12 +148,17 @@ def _by_interior_point(statement: Statement, reach: Real, unit: Real, margin: fl
     return _in_frame(statement, *solve(_programs(statement, reach, unit, margin), *stages))
 
 
-def in_finer_numbers(precision: Precision) -> Method:
-    """Interpreted, in finer numbers, which warn where compiled ones end in a NaN, and the search with it."""
+def in_finer_numbers(precision: Precision, until: float) -> Method:
+    """Interpreted, in finer numbers, which warn where compiled ones end in a NaN, and the search with it.
+
+    Parameters
+    ----------
+    until : time.thread_time() after which they raise :class:`OutOfTime`.
+    """
 
     def method(statement: Statement, reach: Real, unit: Real, margin: float, *stages: Any) -> tuple[Any, ...]:
         with np.errstate(all="ignore"):
-            arrays = solve_in(precision)(_programs(statement, reach, unit, margin), *stages)
+            arrays = solve_in(precision)(until, _programs(statement, reach, unit, margin), *stages)
         return _in_frame(statement, *(np.asarray(values, dtype=float) for values in arrays))
 
     return method

@@ -92,7 +92,12 @@ def smallest_objective(
 
 
 def least_mass(
-    statement: Statement, first: ConeSolution, share: float, enough: float, start: ConeSolution | None = None
+    statement: Statement,
+    first: ConeSolution,
+    share: float,
+    enough: float,
+    start: ConeSolution | None = None,
+    stop: Callable[[ConeSolution], bool] = lambda best: False,
 ) -> ConeSolution:
     """The least total mass among the optima, with its bound.
 
@@ -102,6 +107,7 @@ def least_mass(
     share : how far above the smallest objective an optimum may be, in units of the objective.
     enough : relative gap of the mass that ends the search, besides what the tolerance of the ceilings is worth.
     start : point and bounds so far; its bound counts all objectives up to the share above its own first stage.
+    stop : whether the best so far is enough to end the search.
     """
     rounding = float(statement.rounding(first.unbalance))
     target = max(first.objective, first.lower_bound + (1.0 - _TARGET_MARGIN) * share - rounding)
@@ -135,7 +141,7 @@ def least_mass(
             best = replace(best, certify_s=best.certify_s + time.perf_counter() - began)
         proof = best.mass_multipliers
         allowance = 0.0 if proof is None else float(tolerance_allowance(statement, proof))
-        if best.mass - best.mass_lower_bound - allowance <= enough * best.mass:
+        if stop(best) or best.mass - best.mass_lower_bound - allowance <= enough * best.mass:
             break
     return best
 

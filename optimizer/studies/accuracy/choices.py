@@ -30,9 +30,9 @@ from optimizer.numerics.records import record
 from optimizer.program.ceilings import CEILING_TOLERANCE
 from optimizer.solve.solution import Infeasible
 from optimizer.solve.solve import solve
-from optimizer.studies.accuracy.judge import Judge
+from optimizer.studies.accuracy.judge import Judge, JudgeOfNorms, judge_of
 from optimizer.studies.accuracy.ladder import LADDER_S, ROUNDS_S, frontier, median_ms
-from optimizer.studies.accuracy.uncertain import whole_worst_case
+from optimizer.studies.accuracy.uncertain import whole_problem
 from schemas.base.rules import Path
 from schemas.base.variation import with_fields
 from schemas.machine.choices import KINDS as CHOICES
@@ -103,10 +103,10 @@ def at_rest(request: AccuracyRequest, scene: Prepared) -> Judge:
     """The program of any masses, of the worst case where there is more than the machine as it is given; plates are not
     opened yet, and reach as far as they can."""
     task = Task.of(request)
-    if task.robust:
-        return whole_worst_case(task, scene)
+    if task.robust or task.objective.of_the_revolution:
+        return judge_of(whole_problem(task, scene))
     (machine, objective), square = task.space, np.array([scene.omega_squared])
-    return Judge(cone_program(closed(machine), objective, scene.responses, square).subset(0))
+    return JudgeOfNorms(cone_program(closed(machine), objective, scene.responses, square).subset(0))
 
 
 def choices_ladder(request: AccuracyRequest, scene: Prepared) -> Ladder:
@@ -225,8 +225,7 @@ class _Ways:
 
     def _keeps_limits(self, mass: Real, u: Complex) -> bool:
         """Whether masses (K + S,) kg of unbalances (K + S,) kg m keep ceilings, budget and numbers."""
-        excess = np.max(self.judge.statement.ceilings.excess(u), initial=-np.inf)
-        return bool(excess <= CEILING_TOLERANCE) and _counts(self.task, mass)
+        return bool(self.judge.excess(u) <= CEILING_TOLERANCE) and _counts(self.task, mass)
 
     def judged(self, rungs: Sequence[Rung]) -> Ladder:
         """What is known of all rows together, and each against it."""

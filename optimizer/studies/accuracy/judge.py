@@ -1,6 +1,8 @@
-"""By what counterweights are judged: one sum, or the largest of the sums of several scenarios."""
+"""By what counterweights are judged: one sum, or the largest of the sums of several scenarios; of the first order in
+closed form, over a revolution by brackets."""
 
 from dataclasses import replace
+from typing import Protocol
 
 import numpy as np
 
@@ -11,10 +13,84 @@ from optimizer.program.cuts.semi_infinite import Problem
 from optimizer.program.limits import Limits
 from optimizer.program.statement import Statement
 
+#: width of the brackets of goals over a revolution, as a share of what they are measured by
+_WIDTH = 1e-12
+
+
+class Judge(Protocol):
+    """What counterweights (K,) kg m come to."""
+
+    @property
+    def limits(self) -> Limits:
+        """Limits of every web."""
+
+    @property
+    def terms(self) -> int:
+        """Norms in the objective; over a revolution, responses that are each the largest of infinitely many."""
+
+    @property
+    def ceilings(self) -> int:
+        """Ceilings on peaks."""
+
+    @property
+    def at_rest(self) -> float:
+        """The objective without counterweights."""
+
+    def objective(self, u: Complex) -> float:
+        """The objective."""
+
+    def excess(self, u: Complex) -> float:
+        """The largest excess over a ceiling, relative to its size; -inf without ceilings."""
+
+    def rounding(self, u: Complex) -> float:
+        """What the objective may be off by rounding."""
+
+
+def judge_of(problem: Problem) -> Judge:
+    """That of the only goal of a problem."""
+    if problem.quantities:
+        return JudgeOverRevolution(problem)
+    return JudgeOfNorms(problem.begun, problem.case_of if problem.goal_of_case.size > 1 else None)
+
 
 @record(frozen=True)
-class Judge:
-    """What counterweights come to.
+class JudgeOverRevolution:
+    """What counterweights come to over a revolution: the upper ends of brackets."""
+
+    problem: Problem
+
+    @property
+    def limits(self) -> Limits:
+        return self.problem.limits
+
+    @property
+    def terms(self) -> int:
+        rows = sum(
+            peak.norms.constant.size for group in self.problem.groups for row in group.rows for peak in row.peaks
+        )
+        return rows + sum(len(group.weighed) for group in self.problem.groups)
+
+    @property
+    def ceilings(self) -> int:
+        return len(self.problem.ceilings) + len(self.problem.limited)
+
+    @property
+    def at_rest(self) -> float:
+        return float(self.problem.at_rest.goals[-1])
+
+    def objective(self, u: Complex) -> float:
+        return float(self.problem.values(u, _WIDTH).goals[-1])
+
+    def excess(self, u: Complex) -> float:
+        return self.problem.values(u, _WIDTH).excess if self.ceilings else -np.inf
+
+    def rounding(self, u: Complex) -> float:
+        return float(self.problem.begun.rounding(u))
+
+
+@record(frozen=True)
+class JudgeOfNorms:
+    """What counterweights come to by finitely many norms.
 
     statement : all groups, with ceilings and limits.
     sums : (groups,) sum to which each belongs, of which the largest counts; None where all are one sum.
@@ -23,13 +99,25 @@ class Judge:
     statement: Statement
     sums: np.ndarray | None = None
 
-    @classmethod
-    def of(cls, problem: Problem) -> "Judge":
-        """That of the only goal of a problem of the first order."""
-        return cls(problem.begun, problem.case_of if problem.goal_of_case.size > 1 else None)
+    @property
+    def limits(self) -> Limits:
+        return self.statement.limits
+
+    @property
+    def terms(self) -> int:
+        return self.statement.norms.constant.size
+
+    @property
+    def ceilings(self) -> int:
+        return len(self.statement.ceilings.names)
+
+    def excess(self, u: Complex) -> float:
+        return float(np.max(self.statement.ceilings.excess(u), initial=-np.inf))
+
+    def rounding(self, u: Complex) -> float:
+        return float(self.statement.rounding(u))
 
     def objective(self, u: Complex) -> float:
-        """The objective with counterweights (K,) kg m."""
         statement = self.statement
         if self.sums is None:
             return float(statement.objective(u))
@@ -38,14 +126,13 @@ class Judge:
 
     @property
     def at_rest(self) -> float:
-        """The objective without counterweights."""
         return self.objective(np.zeros(self.statement.limits.radius.shape, complex))
 
-    def within(self, limits: Limits) -> "Judge":
+    def within(self, limits: Limits) -> "JudgeOfNorms":
         """The same with other limits."""
         return replace(self, statement=replace(self.statement, limits=limits))
 
-    def only(self, webs: np.ndarray) -> "Judge":
+    def only(self, webs: np.ndarray) -> "JudgeOfNorms":
         """The same with some of the webs (K,)."""
         return replace(self, statement=self.statement.only(webs))
 

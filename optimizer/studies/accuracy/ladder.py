@@ -11,8 +11,6 @@ from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, field
 from typing import NamedTuple, TypeVar
 
-import numpy as np
-
 from optimizer.numerics.records import record
 from optimizer.program.ceilings import CEILING_TOLERANCE
 from optimizer.studies.accuracy.methods import LadderProgram, Method, MethodResult, Run
@@ -31,7 +29,7 @@ LADDER_S = 60.0
 
 @record(frozen=True)
 class Judged:
-    """One run, evaluated by the statement; in units of the objective."""
+    """One run, evaluated by the judge of all; in units of the objective."""
 
     position: float
     objective: float
@@ -136,11 +134,10 @@ def _trial(task: LadderProgram, method: Method, clock: Clock) -> Trial:
 
 
 def _judge(task: LadderProgram, position: float, weights: MethodResult) -> Judged:
-    statement = task.statement
     return Judged(
         position,
         objective=task.objective(weights.unbalance),
-        excess=float(np.max(statement.ceilings.excess(weights.unbalance), initial=-np.inf)),
+        excess=task.judge.excess(weights.unbalance),
         claimed=weights.claimed,
         bound=weights.prove(),
     )

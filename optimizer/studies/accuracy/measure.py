@@ -10,20 +10,23 @@ from typing import NamedTuple
 
 import numpy as np
 
+from optimizer.errors import MissingInput
 from optimizer.formulation.formulate import limited, weights
 from optimizer.formulation.goals import cone_program
 from optimizer.formulation.simulation import Prepared
 from optimizer.formulation.task import Task
 from optimizer.numerics.arrays import Complex
 from optimizer.outputs.registry import prepare
+from optimizer.outputs.requirements import effects_of_objective, missing
 from optimizer.program.ceilings import CEILING_TOLERANCE
 from optimizer.program.certificate import Multipliers, ceiling_allowance
-from optimizer.program.cuts.optimum import Conflict
+from optimizer.program.cuts.optimum import CertifiedOptimum, Conflict
 from optimizer.program.methods.implied_bounds import within_reach
 from optimizer.program.methods.optima import optima
 from optimizer.program.statement import Statement
 from optimizer.studies.accuracy.choices import at_rest, choices_ladder
 from optimizer.studies.accuracy.effects import effects_ladder
+from optimizer.studies.accuracy.judge import Judge, JudgeOfNorms, judge_of
 from optimizer.studies.accuracy.ladder import (
     LADDER_S,
     SOLVE_S,
@@ -37,8 +40,9 @@ from optimizer.studies.accuracy.ladder import (
 )
 from optimizer.studies.accuracy.methods import POSITIONS, LadderProgram, Method, methods
 from optimizer.studies.accuracy.peaks import peaks_ladder
+from optimizer.studies.accuracy.revolution import revolution_methods
 from optimizer.studies.accuracy.rivals.sampled import OverTheTurn, WeightedResponse
-from optimizer.studies.accuracy.uncertain import SHARPEST, Steps, plain, uncertain_methods, whole_worst_case
+from optimizer.studies.accuracy.uncertain import SHARPEST, Steps, plain, uncertain_methods, whole_problem
 from schemas.base.mappings import or_mapping
 from schemas.base.version import package_version
 from schemas.request.accuracy import (
@@ -59,10 +63,20 @@ _PACKAGES = ("numpy", "numba", "scipy", "clarabel", "cvxpy")
 
 @or_mapping(AccuracyRequest)
 def accuracy(request: AccuracyRequest) -> AccuracyAnswer:
-    """The ladders of methods and of simulations for a machine; least mass is off, whatever was asked."""
+    """The ladders of methods and of simulations for a machine; least mass is off, whatever was asked.
+
+    Raises
+    ------
+    MissingInput
+        if the machine, or that of a scenario, lacks what the objective needs.
+    """
     start = time.perf_counter()
+    task = Task.of(request)
+    lacking = list(missing(task.machine, task.objective))
+    if lacking:
+        raise MissingInput(lacking)
     # outputs play no part: what they would miss must not refuse the ladder
-    scene = prepare(request, ("residual",))
+    scene = prepare(request, ("residual",), () if task.scenarios else effects_of_objective(task.objective))
     fields = (_choice_fields if request.has_production_limits else _method_fields)(request, scene)
     return AccuracyAnswer(
         **fields,
@@ -78,8 +92,8 @@ def accuracy(request: AccuracyRequest) -> AccuracyAnswer:
 def _choice_fields(request: AccuracyRequest, scene: Prepared) -> dict[str, object]:
     """Fields of the answer where counterweights are as a workshop makes them."""
     closed = at_rest(request, scene)
-    usable = closed.statement.limits.reach > 0
-    fields: dict[str, object] = {"size": _size(request, closed.statement.only(usable)), "ladder": ()}
+    usable = closed.limits.reach > 0
+    fields: dict[str, object] = {"size": _size(request, closed, usable), "ladder": ()}
     if closed.at_rest == 0.0 or not np.any(usable):
         return fields | {"status": "nothing_to_choose", "reference": None}
     result = choices_ladder(request, scene)
@@ -90,6 +104,8 @@ def _choice_fields(request: AccuracyRequest, scene: Prepared) -> dict[str, objec
 def _method_fields(request: AccuracyRequest, scene: Prepared) -> dict[str, object]:
     """Fields of the answer where counterweights have any mass at any angle."""
     task = Task.of(request)
+    if task.objective.of_the_revolution:
+        return _revolution_fields(request, task, scene)
     return (_worst_case_fields if task.robust else _nominal_fields)(request, task, scene)
 
 
@@ -103,7 +119,8 @@ def _nominal_fields(request: AccuracyRequest, task: Task, scene: Prepared) -> di
 
 def _worst_case_fields(request: AccuracyRequest, task: Task, scene: Prepared) -> dict[str, object]:
     """Those of the worst case, whose optimum is the first run of the most accurate row of the service."""
-    whole = whole_worst_case(task, scene)
+    whole = judge_of(whole_problem(task, scene))
+    assert isinstance(whole, JudgeOfNorms)  # nothing of it is over a revolution
     if whole.sums is None:
         whole = whole.within(within_reach(whole.statement).limits)
     usable = whole.statement.limits.reach > 0
@@ -115,12 +132,38 @@ def _worst_case_fields(request: AccuracyRequest, task: Task, scene: Prepared) ->
     program = LadderProgram(judge.statement, _turn(request, scene).only(usable), plain(judge), judge.sums)
     if isinstance(optimum, Conflict):
         return _ladder_fields(request, scene, program, None, ())
-    result, proof = steps.result(optimum), optimum.proof
-    excess = float(np.max(judge.statement.ceilings.excess(result.unbalance), initial=-np.inf))
-    figures = result.unbalance, judge.objective(result.unbalance), result.prove(), excess
-    best = Best(*figures, proof.statement, proof.multipliers)
+    return _fields_beside(request, scene, program, steps, optimum, elapsed_s, uncertain_methods(steps, judge))
+
+
+def _revolution_fields(request: AccuracyRequest, task: Task, scene: Prepared) -> dict[str, object]:
+    """Those of goals over a revolution, in the worst case where more counts than the machine as it is given."""
+    steps = Steps(task, scene, np.ones(len(task.space.machine.webs), bool))
+    whole, start = steps.robust(SHARPEST, SOLVE_S).goals().anywhere, time.perf_counter()
+    optimum = steps.whole(steps.robust(SHARPEST, SOLVE_S))
+    elapsed_s = time.perf_counter() - start
+    # the search knows how far counterweights without a limit reach
+    problem = whole.changed(limits=optimum.limits)
+    program = LadderProgram(problem.begun, OverTheTurn((), task.objective.combine, ()), problem=problem)
+    if isinstance(optimum, Conflict):
+        return _ladder_fields(request, scene, program, None, ())
+    return _fields_beside(request, scene, program, steps, optimum, elapsed_s, revolution_methods(steps))
+
+
+def _fields_beside(
+    request: AccuracyRequest,
+    scene: Prepared,
+    program: LadderProgram,
+    steps: Steps,
+    optimum: CertifiedOptimum,
+    elapsed_s: float,
+    ways: Iterable[Method],
+) -> dict[str, object]:
+    """Fields of the ladder whose most accurate row of the service has run already, and took so long."""
+    result, proof, judge = steps.result(optimum), optimum.proof, program.judge
+    u = result.unbalance
+    best = Best(u, judge.objective(u), result.prove(), judge.excess(u), proof.statement, proof.multipliers)
     earlier = FirstRun("service", f"relative gap {SHARPEST:.0e}", result, elapsed_s)
-    return _ladder_fields(request, scene, program, best, uncertain_methods(steps, judge), earlier)
+    return _ladder_fields(request, scene, program, best, ways, earlier)
 
 
 def _ladder_fields(
@@ -138,14 +181,14 @@ def _ladder_fields(
     best : None where no counterweights keep the ceilings.
     earlier : run of one of them that is known.
     """
-    webs = program.statement.limits.radius
+    usable = program.judge.limits.reach > 0
     status: Status = "measured"
     reference: Reference | None = None
     rows: tuple[AccuracyRow, ...] = ()
-    rest = program.objective(np.zeros(webs.shape, complex))
+    rest = program.judge.at_rest
     if best is None:
         status = "infeasible"
-    elif rest == 0.0 or not webs.size:
+    elif rest == 0.0 or not np.any(usable):
         status = "nothing_to_choose"
         reference, _ = _judged(program, [], best, rest, scene.omega_squared)
     else:
@@ -153,7 +196,7 @@ def _ladder_fields(
         reference, rows = _judged(program, trials, best, rest, scene.omega_squared)
     if reference is None and status != "infeasible":
         status = "contradicted"
-    return {"status": status, "reference": reference, "size": _size(request, program.statement), "ladder": rows}
+    return {"status": status, "reference": reference, "size": _size(request, program.judge, usable), "ladder": rows}
 
 
 class Best(NamedTuple):
@@ -200,13 +243,13 @@ def _run(task: LadderProgram, ways: Iterable[Method], repeats: int, earlier: Fir
     return trials
 
 
-def _proven(statement: Statement, best: Best, bounds: list[float], objective: float, excess: float) -> float:
+def _proven(judge: Judge, best: Best, bounds: list[float], objective: float, excess: float) -> float:
     """The sharpest bound; NaN where a value that was found is below it.
 
     A value is known to its rounding, and counterweights that exceed ceilings within the tolerance may gain what these
     cost, so a bound above the value by no more is lowered to it (docs/mathematics.md, section 5).
     """
-    bound, slack = max(bounds), float(statement.rounding(best.unbalance))
+    bound, slack = max(bounds), judge.rounding(best.unbalance)
     over = np.full(best.statement.ceilings.size.shape, max(excess, 0.0))
     slack += float(ceiling_allowance(best.statement, best.multipliers, over))
     if bound <= objective + slack:
@@ -222,11 +265,11 @@ def _judged(
     objective = min([best.objective, *(result.objective for result in results)])
     bounds = [best.lower_bound, *(result.bound for trial in trials for result in trial.judged)]
     excess = max([best.excess, *(result.excess for result in results)])
-    bound = _proven(task.statement, best, bounds, objective, excess)
+    bound = _proven(task.judge, best, bounds, objective, excess)
     if np.isnan(bound):
         return None, ()
     reference = _reference(objective, bound, rest, square)
-    figures = [_figures(trial, bound, rest, bool(task.statement.ceilings.names)) for trial in trials]
+    figures = [_figures(trial, bound, rest, bool(task.judge.ceilings)) for trial in trials]
     points = [
         # a batch answers no single request in the time of one of its programs
         None
@@ -293,13 +336,13 @@ def _reference(objective: float, bound: float, rest: float, square: float) -> Re
     )
 
 
-def _size(request: AccuracyRequest, statement: Statement) -> ProgramSize:
+def _size(request: AccuracyRequest, judge: Judge, usable: np.ndarray) -> ProgramSize:
     machine = request.machine
     return ProgramSize(
-        webs=statement.limits.radius.size,
-        norm_terms=statement.norms.constant.size,
-        ceilings=len(statement.ceilings.names),
-        sectors=int(np.sum(~statement.limits.free)),
+        webs=int(np.sum(usable)),
+        norm_terms=judge.terms,
+        ceilings=judge.ceilings,
+        sectors=int(np.sum(~judge.limits.free & usable)),
         mass_budget=machine.max_total_mass_kg is not None,
         rows=sum(len(throw.rows) for throw in machine.throws),
     )

@@ -7,8 +7,10 @@ from functools import cache, partial
 import numpy as np
 
 from optimizer.numerics.arrays import Complex, Real
+from optimizer.numerics.memoization import cached_property
 from optimizer.numerics.records import record
 from optimizer.program.certificate import objective_lower_bound
+from optimizer.program.cuts.semi_infinite import Problem
 from optimizer.program.kernel.finer_numbers import PRECISIONS, Precision
 from optimizer.program.methods.compiled import StageSolutions, stage_solutions
 from optimizer.program.methods.optima import optima
@@ -16,7 +18,7 @@ from optimizer.program.multipliers import objective_multipliers
 from optimizer.program.reference.assembled import NoPoint
 from optimizer.program.reference.modelling import ConeProgram
 from optimizer.program.statement import Statement
-from optimizer.studies.accuracy.judge import Judge
+from optimizer.studies.accuracy.judge import Judge, JudgeOfNorms, judge_of
 from optimizer.studies.accuracy.rivals import matrices
 from optimizer.studies.accuracy.rivals.polygonal import polygonal
 from optimizer.studies.accuracy.rivals.sampled import OverTheTurn, sampled
@@ -34,20 +36,28 @@ _FIXED = POSITIONS[:1]
 
 @record(frozen=True)
 class LadderProgram:
-    """The program to solve; all its webs can carry something.
+    """The program to solve; all its webs can carry something, but for those of goals over a revolution.
 
+    statement : over a revolution with the cuts to begin with.
     plain : where something is off, the same as one sum of norms; None where it is none.
-    sums : (groups,) as of :class:`optimizer.studies.accuracy.judge.Judge`.
+    sums : (groups,) as of :class:`optimizer.studies.accuracy.judge.JudgeOfNorms`.
+    problem : of goals over a revolution; None of the first order.
     """
 
     statement: Statement
     turn: OverTheTurn
     plain: Statement | None = None
     sums: np.ndarray | None = None
+    problem: Problem | None = None
+
+    @cached_property
+    def judge(self) -> Judge:
+        """By what methods are judged."""
+        return JudgeOfNorms(self.statement, self.sums) if self.problem is None else judge_of(self.problem)
 
     def objective(self, u: Complex) -> float:
         """What counterweights (K,) kg m come to."""
-        return Judge(self.statement, self.sums).objective(u)
+        return self.judge.objective(u)
 
 
 @record(frozen=True)

@@ -20,12 +20,13 @@ from optimizer.numerics.arrays import Complex, Real
 from optimizer.program.ceilings import CEILING_TOLERANCE
 from optimizer.program.cuts.optimum import CertifiedOptimum, Conflict
 from optimizer.program.cuts.row_generation import MANY
+from optimizer.program.cuts.semi_infinite import Problem
 from optimizer.program.optimum import optimum
 from optimizer.program.statement import Statement
 from optimizer.solve.answer_fields import bound_beside
 from optimizer.solve.uncertain_program import MachineOfCase, Measure, Robust
 from optimizer.solve.worst_case import nominal
-from optimizer.studies.accuracy.judge import Judge
+from optimizer.studies.accuracy.judge import JudgeOfNorms
 from optimizer.studies.accuracy.ladder import SOLVE_S
 from optimizer.studies.accuracy.methods import GAPS, LadderProgram, Method, MethodResult, Run, methods
 
@@ -48,19 +49,19 @@ _COUNTERWEIGHTS = ("mass_relative", "angle_deg", "unbalance_kg_m")
 _EVERYTHING = (*_MASSES, *_COUNTERWEIGHTS)
 
 
-def whole_worst_case(task: Task, scene: Prepared) -> Judge:
+def whole_problem(task: Task, scene: Prepared) -> Problem:
     """The worst case of everything that may be off, whatever the counterweights."""
-    return Judge.of(Robust(task, scene, task.demand).goals().anywhere)
+    return Robust(task, scene, task.demand).goals().anywhere
 
 
-def uncertain_methods(steps: "Steps", judge: Judge) -> Iterator[Method]:
+def uncertain_methods(steps: "Steps", judge: JudgeOfNorms) -> Iterator[Method]:
     """All methods: the steps to the worst case, then those of a machine as it is given.
 
     Parameters
     ----------
     judge : the whole worst case, of the webs that the program of the ladder has.
     """
-    yield from _parts(steps)
+    yield from parts(steps)
     for gap in GAPS:
         yield Method("service", f"relative gap {gap:.0e}", steps.run(gap, steps.whole))
     obstacle, single = _obstacle(judge), judge.single_sum
@@ -78,12 +79,12 @@ def uncertain_methods(steps: "Steps", judge: Judge) -> Iterator[Method]:
             continue
         if reason is not None:
             absent.add(method.name)
-            yield Method(method.name, "none", partial(_absent, reason))
+            yield absence(method.name, reason)
         else:
             yield replace(method, prepare=partial(_with_terms, method), entries=partial(_entries, method))
 
 
-def _parts(steps: "Steps") -> Iterator[Method]:
+def parts(steps: "Steps") -> Iterator[Method]:
     """The steps that see a part of the worst case."""
     scenarios = steps.task.scenarios
     # without scenarios the machine as it is given is a part of what may be
@@ -95,20 +96,21 @@ def _parts(steps: "Steps") -> Iterator[Method]:
     for rounds in ROUNDS if len(scenarios) > 1 else ():
         if rounds <= len(scenarios):
             prepared = steps.run(SHARPEST, partial(steps.worst_scenarios, rounds))
-            yield Method("worst_scenarios", _rounds(rounds), prepared)
+            yield Method("worst_scenarios", rounds_in_words(rounds), prepared)
     worst = steps.robust(SHARPEST, SOLVE_S)
     if scenarios and (worst.scatters or any(worst.scatter)):
         yield Method("partly_off", "scenarios alone", steps.run(SHARPEST, partial(steps.without, _EVERYTHING)))
     if worst.scatters and any(worst.scatter):
         for name, zero in (("counterweights", _MASSES), ("masses", _COUNTERWEIGHTS)):
             yield Method("partly_off", f"{name} alone", steps.run(SHARPEST, partial(steps.without, zero)))
-    if worst.scatters:
+    if worst.scatters and worst.measures:
         yield Method("first_order", "corners by derivatives", steps.run(SHARPEST, steps.first_order))
         for rounds in ROUNDS:
-            yield Method("corners", _rounds(rounds), steps.run(SHARPEST, partial(steps.corners, rounds)))
+            yield Method("corners", rounds_in_words(rounds), steps.run(SHARPEST, partial(steps.corners, rounds)))
 
 
-def _rounds(count: int) -> str:
+def rounds_in_words(count: int) -> str:
+    """The setting of a method by rounds."""
     return "1 round" if count == 1 else f"{count} rounds"
 
 
@@ -137,16 +139,21 @@ def _with_rows(method: Method, statement: Statement) -> Run:
     return lambda task, position, limit: run(replace(task, statement=statement, sums=None), position, limit)
 
 
-def _absent(reason: str) -> Run:
-    return lambda task, position, time_limit_s: reason
+def absence(method: str, reason: str) -> Method:
+    """The row of a method that cannot take part."""
+
+    def run(task: LadderProgram, position: float, time_limit_s: float) -> str:
+        return reason
+
+    return Method(method, "none", lambda: run)
 
 
-def plain(judge: Judge) -> Statement | None:
+def plain(judge: JudgeOfNorms) -> Statement | None:
     """A program with what scatters as terms of its own; None where it is no single sum of norms."""
     return None if _obstacle(judge) else judge.statement.spelled()
 
 
-def _obstacle(judge: Judge) -> str | None:
+def _obstacle(judge: JudgeOfNorms) -> str | None:
     if judge.statement.norms.scatter and judge.statement.ceilings.names:
         return _ONE_SUM.format(_OF_CEILINGS)
     return _ONE_SUM.format(_OF_PEAKS) if judge.statement.group[-1] > 0 else None
@@ -165,6 +172,11 @@ class Steps:
         self.task, self._scene, self._usable = task, scene, usable
         #: machines of the scenarios, which no run prepares again
         self._machines = Robust(task, scene, task.demand).machines
+
+    @property
+    def senses(self) -> dict[str | None, float]:
+        """Of rotation, 1 or -1, of the machine of every scenario."""
+        return {machine.scenario: float(machine.scene.laden.sense) for machine in self._machines}
 
     def robust(self, relative_gap: float, time_limit_s: float) -> Robust:
         """The program of the whole worst case, for the smallest objective alone."""

@@ -23,6 +23,8 @@ _METHODS = {
     "cone_program_matrices": "cone program, matrices",
     "sampled_angles": "sampled angles",
     "polygonal_cones": "polygonal cones",
+    "orders": "low orders alone",
+    "cuts": "cuts at peaks by rounds",
     "nominal": "nominal optimum",
     "partly_off": "optimum with a part off",
     "first_order": "first order of the scatter",

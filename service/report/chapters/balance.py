@@ -171,6 +171,10 @@ def counterweights(request: OptimizeRequest, answer: OptimizeAnswer, built: AsBu
         blocks.append(Paragraph("These are the counterweights of the best compromise, not an answer.", "warning"))
     holder = answer if answer.infeasibility is None else answer.infeasibility.closest
     shafts = list(on_balance_shafts(holder.balance_shafts, answer.balance_shafts_mass_kg))
+    if built is None:
+        shafts += holding(
+            request.machine, [weight for shaft in holder.balance_shafts for weight in shaft.counterweights]
+        )
     if not fitted:
         blocks.append(Paragraph("There are none on the crankshaft." if shafts else "There are none."))
     if fitted or shafts:

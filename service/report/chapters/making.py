@@ -11,7 +11,8 @@ from service.report.blocks import Block, table
 def holding(machine: Machine, fitted: Sequence[Counterweight]) -> Iterator[Block]:
     """Loads on bolts, if the machine has such a limit; but for plates."""
     whole = [counterweight for counterweight in fitted if counterweight.mass_kg > 0 and counterweight.shape is None]
-    bolted = machine.overspeed_rpm is not None or any(web.max_centrifugal_force_N is not None for web in machine.webs)
+    limits = (web.max_centrifugal_force_N for web in machine.every_web)
+    bolted = machine.overspeed_rpm is not None or any(limit is not None for limit in limits)
     if whole and bolted:
         rows = [(counterweight.web, counterweight.centrifugal_force_N) for counterweight in whole]
         title = f"What holds them at {digits(machine.overspeed_rpm or machine.speed_rpm)} rpm"

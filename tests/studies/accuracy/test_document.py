@@ -12,7 +12,7 @@ from optimizer.studies.accuracy.measure import accuracy
 from optimizer.studies.accuracy.peaks import peaks_ladder
 from schemas.request.accuracy import AccuracyAnswer
 from service.report.chapters.accuracy import method_name
-from tests.night import but
+from tests.night import at_night, but
 from tests.studies.accuracy.problems import request
 
 DOCS = Path(__file__).parents[3] / "docs"
@@ -58,6 +58,25 @@ def test_ladders_are_reproduced(name: str) -> None:
     for cells, row in zip(lines, ladder, strict=True):
         for cell, value in zip(cells[4:7], (row.relative_error, row.as_drawn_error, row.certified_gap), strict=True):
             assert agrees(cell, value), (cells, value)
+
+
+GOALS: dict[str, dict[str, object]] = {
+    "2d12": {"orders": "all"},
+    "inline-four-engine": {"bearing_weight": 1.0, "force_weight": 0.0, "moment_weight": 0.0},
+}
+
+
+@at_night
+@pytest.mark.parametrize("name", names("revolution"))
+def test_ladders_over_a_revolution_are_reproduced(name: str) -> None:
+    ladder = [row for row in accuracy(request(name, **GOALS[name])).ladder if row.skipped is None]
+    lines = rows(f"revolution {name}")
+    assert [cells[:2] for cells in lines] == [[method_name(row.method), row.setting] for row in ladder]
+    for cells, row in zip(lines, ladder, strict=True):
+        for cell, value in zip(cells[2:5], (row.relative_error, row.as_drawn_error, row.certified_gap), strict=True):
+            assert agrees(cell, value), (cells, value)
+        assert row.claim_error is not None
+        assert agrees(cells[5].removeprefix("-"), abs(row.claim_error)), (cells, row.claim_error)
 
 
 @pytest.mark.parametrize("name", but(DAILY, names("effects")))

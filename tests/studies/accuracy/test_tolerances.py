@@ -220,7 +220,6 @@ def test_a_shaft_at_another_speed_is_off_too() -> None:
     [
         ({"tolerances": {"mass_relative": -0.1}}, "/tolerances/mass_relative"),
         ({"tolerances": {"mass": 0.1}}, "/tolerances/mass"),
-        ({"tolerances": MASSES, "objective": {"orders": "all"}}, "/objective/orders"),
     ],
 )
 def test_wrong_tolerances_are_refused_by_name(post: Post, changes: dict[str, Any], pointer: str) -> None:

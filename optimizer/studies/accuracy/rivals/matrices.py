@@ -23,14 +23,16 @@ class RivalPoint:
     claimed: float | None  # objective that the program itself sees, where it shows it
 
 
-def scaled(statement: Statement, ceiling_margin: float) -> tuple[ScaledData, Scaling]:
+def scaled(statement: Statement, ceiling_margin: float, outline: Statement | None = None) -> tuple[ScaledData, Scaling]:
     """The scaled first stage of a statement, as the reference solver poses it in its first attempt.
 
     Parameters
     ----------
     ceiling_margin : share of their size by which ceilings are lowered.
+    outline : with fewer rows, that stands for a large statement where its natural reach is sought.
     """
-    clip = min(_REACH * float(natural_reach(statement)), float(np.max(statement.limits.reach)))
+    natural = float(natural_reach(statement if outline is None else outline))
+    clip = min(_REACH * natural, float(np.max(statement.limits.reach)))
     return scale(statement, "objective", clip, ceiling_margin)
 
 

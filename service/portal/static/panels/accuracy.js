@@ -26,7 +26,7 @@ export const accuracy = {
   id: "accuracy", title: "Accuracy against time",
   about: "Every method and setting, timed on this machine just now; down and to the left is better.",
   async draw(body, { request, ask }) {
-    const { angles: _angles, fidelity: _fidelity, ...rest } = request;
+    const { angles: _angles, ...rest } = request;
     const answer = await ask("v1/accuracy", { ...rest, repeats: 3 });
     if (answer.status !== "measured") {
       body.replaceChildren(h("p", {}, WORDS[answer.status] ?? answer.status));
@@ -40,7 +40,7 @@ export const accuracy = {
     const methods = [...new Set(rows.map((row) => row.method))];
     body.replaceChildren(node, h("details", {}, h("summary", {}, "As a table"), choices
       ? table("Time, gap, mass and pieces", [...HEADS, "mass, kg", "pieces", "sizes", "limits"], rows.map(made))
-      : table("Methods and settings", HEADS, rows.map(cells))));
+      : table("Methods and settings", [...HEADS, "claim"], rows.map((row) => [...cells(row), number(row.claim_error, 2)]))));
     await plot(node, () => ({
       traces: methods.map((method, index) => {
         const own = rows.filter((row) => row.method === method && row.relative_error !== null);
