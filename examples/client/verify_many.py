@@ -304,7 +304,7 @@ def _row(request: Place, row: Place, has_selection: bool) -> Claims:
 def _worst(row: Place, status: Any, nominal: Any) -> Dict[str, Any]:
     """The worst case and its price, where columns hold them; of several loads the largest alone is one.
 
-    ``nominal``: what proves the optimum of the machine as it is given.
+    ``nominal``: what proves the optimum of the unchanged machine.
     """
     if status == "infeasible" or not row / OF_WORST[0]:
         return {}

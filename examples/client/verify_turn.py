@@ -98,7 +98,7 @@ def _earlier(program: Program, proof: Place, implied: Place) -> Claims:
 
 
 def _nominal(request: Place, machine: Machine, answer: Place) -> Claims:
-    """The bound of the machine as it is given, nothing off, by multipliers of its own."""
+    """The bound of the unchanged machine, nothing off, by multipliers of its own."""
     price = answer / "price_of_robustness"
     if not price / "nominal_multipliers":
         return

@@ -56,10 +56,10 @@ class WorstCase(WorstPeaks):
 
 
 class PriceOfRobustness(Model):
-    """What the worst case costs: objectives of the machine as it is given, beside those of the worst case."""
+    """What the worst case costs: objectives of the unchanged machine, beside those of the worst case."""
 
     nominal: float = Field(
-        description="what these counterweights come to on the machine as it is given, nothing off", examples=[30420.1]
+        description="what these counterweights come to on the unchanged machine, nothing off", examples=[30420.1]
     )
     nominal_optimum: float | None = Field(
         description="the smallest objective of that machine, nothing off; null where its ceilings are out of reach, or"

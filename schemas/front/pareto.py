@@ -231,7 +231,7 @@ class ParetoPoint(Model):
         examples=["The gap to the proven lower bound is within the asked one, and every limit is kept."],
     )
     force_peak_N: Newtons = Field(
-        description="first-order peak force of the machine as it is given, nothing off", examples=[7504.6]
+        description="first-order peak force of the unchanged machine, nothing off", examples=[7504.6]
     )
     moment_peak_Nm: NewtonMetres = Field(description="first-order peak moment, likewise", examples=[20123.28])
     weighted_force_peak_N: Newtons = Field(

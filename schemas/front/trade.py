@@ -84,7 +84,7 @@ class TradedPoint(Model):
     )
     nominal_values: tuple[float, ...] | None = Field(
         None,
-        description="the same of the machine as it is given, nothing off; null without scenarios and tolerances",
+        description="the same of the unchanged machine, nothing off; null without scenarios and tolerances",
         examples=[None],
     )
     beaten_by: int | None = Field(
@@ -95,7 +95,7 @@ class TradedPoint(Model):
         examples=[None],
     )
     force_peak_N: Newtons = Field(
-        description="first-order peak force of the machine as it is given, nothing off", examples=[7504.6]
+        description="first-order peak force of the unchanged machine, nothing off", examples=[7504.6]
     )
     moment_peak_Nm: NewtonMetres = Field(description="first-order peak moment, likewise", examples=[20123.28])
     total_mass_kg: Kilograms = Field(description="total mass of the counterweights on the crankshaft", examples=[41.2])

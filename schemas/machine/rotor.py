@@ -203,7 +203,7 @@ def no_catalogue(machine: Rotor, path: Path, subject: str) -> Iterator[Rule]:
         if web.min_fitted_mass_kg is not None
     )
     for field in (*machine.choice_fields(), *least):
-        yield Rule(True, (*path, *field), f"serves only to optimize one machine as it is given, not {subject}")
+        yield Rule(True, (*path, *field), f"serves only to optimize one machine by itself, not {subject}")
 
 
 def no_groups(machine: Rotor, path: Path, subject: str) -> Iterator[Rule]:

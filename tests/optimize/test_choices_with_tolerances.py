@@ -92,7 +92,7 @@ def test_no_set_has_a_better_worst_case(tolerances: dict[str, float]) -> None:
     assert answer.worst_case.objective == answer.certificate.objective
     price = answer.price_of_robustness
     assert price is not None
-    # what the best set of the machine as it is comes to, and is worth in the worst case
+    # what the best set of the unchanged machine comes to, and is worth in the worst case
     assert price.nominal_optimum == pytest.approx(float(np.min(worst(every, {}))), rel=1e-9)
     assert price.nominal_optimum_worst_case is not None
     assert price.nominal_optimum_worst_case >= best * (1.0 - 1e-9)

@@ -43,7 +43,7 @@ def test_a_light_and_a_heavy_machine() -> None:
     peaks = np.array([traded(point) for point in answer.points]) / OMEGA_SQUARED
     assert peaks == pytest.approx(np.stack([1.5 - x, 2.0 * x], axis=-1), abs=6e-6)
     for point, there in zip(answer.points, x, strict=True):
-        # the machine as it is given is in none of them
+        # the unchanged machine is in none of them
         assert point.force_peak_N / OMEGA_SQUARED == pytest.approx(1.0 - there, abs=3e-6)
         assert point.worst_case is not None
         worst_peaks = (point.worst_case.force_peak_N, point.worst_case.moment_peak_Nm)

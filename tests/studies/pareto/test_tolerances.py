@@ -48,7 +48,7 @@ def test_a_straight_front_with_an_error_of_its_counterweight() -> None:
     assert peaks[:, 0] == pytest.approx(1.0 - x + RHO * x, abs=3e-6)
     assert peaks[:, 1] == pytest.approx(2.0 * x * (1.0 + RHO), abs=6e-6)
     for point, there in zip(answer.points, x, strict=True):
-        # the machine as it is given has nothing off
+        # the unchanged machine has nothing off
         assert point.force_peak_N / OMEGA_SQUARED == pytest.approx(1.0 - there, abs=3e-6)
         assert point.moment_peak_Nm / OMEGA_SQUARED == pytest.approx(2.0 * there, abs=6e-6)
         assert point.worst_case is not None

@@ -26,7 +26,7 @@ def test_between_two_cranks_by_their_angle() -> None:
     for row, left in zip(rows, (100.0, 0.0, 100.0), strict=True):
         assert row["objective"] == pytest.approx(left, abs=1e-3)
         assert row["worst_case_force_peak_N"] == pytest.approx(left, abs=1e-3)
-        # the machine as it is given alone is balanced, and then the other has what lies between both
+        # the unchanged machine alone is balanced, and then the other has what lies between both
         assert row["nominal_optimum"] == pytest.approx(0.0, abs=1e-3)
         assert row["nominal_optimum_worst_case"] == pytest.approx(2.0 * left, abs=2e-3)
 
