@@ -270,6 +270,6 @@ def _move(config: pytest.Config, number: int) -> None:
 
 
 def _capture(config: pytest.Config) -> CaptureManager:
-    value = config.pluginmanager.getplugin("capturemanager")
-    assert isinstance(value, CaptureManager)
-    return value
+    capture = config.pluginmanager.getplugin("capturemanager")
+    assert isinstance(capture, CaptureManager)
+    return capture

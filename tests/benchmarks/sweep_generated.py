@@ -95,9 +95,9 @@ class Generated:
         self._terms, self._webs = programs[0].influence.shape
         direct = Direct(programs[0])
         prepared = [direct.prepare(program) for program in programs]
-        self._values = [np.stack(values) for values in zip(*(entry.values for entry in prepared), strict=True)]
-        self._sides = [np.stack(sides) for sides in zip(*(entry.sides for entry in prepared), strict=True)]
-        self._costs = direct.first_cost, np.stack([entry.mass for entry in prepared])
+        self._values = [np.stack(values) for values in zip(*(stages.values for stages in prepared), strict=True)]
+        self._sides = [np.stack(sides) for sides in zip(*(stages.sides for stages in prepared), strict=True)]
+        self._costs = direct.first_cost, np.stack([stages.mass for stages in prepared])
         planes = self._webs + self._terms
         first, second = direct.matrices(programs[0])
         self._first = Compiled(self._costs[0], first, self._sides[0][0], 0, planes)

@@ -134,7 +134,10 @@ class Direct:
         second.update(q=two.cost, A=two.matrix.data, b=two.side)
         pair = smallest, second.solve()
         return stages_of(
-            program, [np.array(entry.x) for entry in pair], [np.array(entry.z) for entry in pair], two.numbers
+            program,
+            [np.array(variable.x) for variable in pair],
+            [np.array(variable.z) for variable in pair],
+            two.numbers,
         )
 
 
@@ -147,9 +150,9 @@ class Generated:
             sweep_generated.Compiled(level.cost, level.matrix, level.side, level.numbers, level.planes)
             for level in prepared[0]
         ]
-        self._values = [np.stack([entry.matrix.data for entry in level]) for level in self._stages]
-        self._sides = [np.stack([entry.side for entry in level]) for level in self._stages]
-        self._costs = [np.stack([entry.cost for entry in level]) for level in self._stages]
+        self._values = [np.stack([stage.matrix.data for stage in level]) for level in self._stages]
+        self._sides = [np.stack([stage.side for stage in level]) for level in self._stages]
+        self._costs = [np.stack([stage.cost for stage in level]) for level in self._stages]
 
     @property
     def unsolved(self) -> int:

@@ -238,8 +238,8 @@ class Batch:
         ]
         self._values = [np.stack([matrix.data for matrix in matrices]) for matrices in stages]
         prepared = [direct.prepare(program) for program in programs]
-        self._costs = np.tile(direct.first_cost, (len(programs), 1)), np.stack([entry.mass for entry in prepared])
-        self._sides = [np.stack(sides) for sides in zip(*(entry.sides for entry in prepared), strict=True)]
+        self._costs = np.tile(direct.first_cost, (len(programs), 1)), np.stack([stages.mass for stages in prepared])
+        self._sides = [np.stack(sides) for sides in zip(*(stages.sides for stages in prepared), strict=True)]
         planes = [3] * (self._webs + self._terms)
         cones = moreau.Cones(so_cone_dims=planes), moreau.Cones(num_nonneg_cones=self._webs + 1, so_cone_dims=planes)
         self._solvers = [self._compiled(matrices[0], cone) for matrices, cone in zip(stages, cones, strict=True)]

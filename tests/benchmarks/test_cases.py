@@ -24,7 +24,7 @@ def test_every_case_is_certified(build: Callable[[], bytes]) -> None:
 def test_phases_add_up() -> None:
     times = measure(next(iter(CASES.values()))())
     assert set(times) == set(PHASES)
-    parts = sum(value for name, value in times.items() if name != "total")
+    parts = sum(duration for name, duration in times.items() if name != "total")
     assert 0 < parts <= times["total"]
 
 

@@ -140,7 +140,7 @@ def _bearing_loads_that_are_weighed(portal: Portal, url: str) -> None:
     _optimise_with(portal, "bearing_weight", "1")
     request = ask(url, "/v1/examples/2d12") | {"objective": {"bearing_weight": 1}}
     loads = ask(url, "/v1/optimize", request)["main_bearings"]["bearings"]
-    largest = [max(value[when]["peak_N"] for value in loads) for when in ("before", "after")]
+    largest = [max(load[when]["peak_N"] for load in loads) for when in ("before", "after")]
     (row,) = (row for row in cells(portal.page.locator("#answer")) if row[0] == "largest bearing load, N")
     assert [number(text) for text in row[1:3]] == pytest.approx(largest, rel=1e-4)
     assert "sum of peak force, peak moment and the largest bearing load" in portal.page.locator(".proof").inner_text()
@@ -157,7 +157,7 @@ def test_what_stands_beside_the_answer(portal: Portal, url: str) -> None:
     assert number(rows[1][2]) == pytest.approx(second["force"]["peak_N"], rel=1e-4)
     rates = cells(portal.panel("cranks").locator("table"))
     assert [float(row[1]) for row in rates] == pytest.approx(
-        [entry["rate"] for entry in answer["balance_rate"]], rel=5e-3
+        [rate["rate"] for rate in answer["balance_rate"]], rel=5e-3
     )
     words = portal.page.locator("#answer").inner_text()
     assert "one per cent of their mass" in words

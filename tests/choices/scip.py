@@ -34,7 +34,7 @@ def scip(statement: Statement, options: Options, relative_gap: float, yardstick:
     ]  # fmt: skip
     for some in taken:
         model.addCons(quicksum(some) == 1)
-    fitted = [(k, o, value) for k, some in enumerate(taken) for o, value in enumerate(some) if o > 0]
+    fitted = [(k, o, chance) for k, some in enumerate(taken) for o, chance in enumerate(some) if o > 0]
     if np.isfinite(statement.limits.max_total_mass):
         weighed = quicksum(float(options.mass[k, o]) * value for k, o, value in fitted)
         model.addCons(weighed <= float(statement.limits.max_total_mass))

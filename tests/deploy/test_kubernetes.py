@@ -52,9 +52,9 @@ def paths() -> frozenset[str]:
 )
 def test_probes_ask_where_there_is_an_answer(probe: str, path: str, paths: frozenset[str]) -> None:
     """Alive and ready are different: a service that is not ready must not be ended for it."""
-    value = CONTAINER[probe]["httpGet"]
-    assert value["path"] == path
-    assert value["port"] in {port["name"] for port in CONTAINER["ports"]}
+    probe_request = CONTAINER[probe]["httpGet"]
+    assert probe_request["path"] == path
+    assert probe_request["port"] in {port["name"] for port in CONTAINER["ports"]}
     assert path in paths
 
 

@@ -170,10 +170,10 @@ def run(count: int, seed: int, distances: Sequence[float] = DISTANCES) -> list[L
     return [ladder for n in range(count) for ladder in ladders(np.random.default_rng((seed, n)), distances)]
 
 
-def summary(value: Sequence[Ladder], console: Console) -> None:
+def summary(ladders: Sequence[Ladder], console: Console) -> None:
     table = Table("place", "answers", "optimal", "infeasible", "inaccurate", "near", "of them inaccurate", "jumps", "s")
     for place in (*PLACES, "all"):
-        chosen = [ladder for ladder in value if place in (ladder.place, "all")]
+        chosen = [ladder for ladder in ladders if place in (ladder.place, "all")]
         rungs = [rung for ladder in chosen for rung in ladder.rungs]
         near = [rung for rung in rungs if abs(rung.distance) <= NEAR]
         statuses, undecided = (
@@ -190,7 +190,7 @@ def summary(value: Sequence[Ladder], console: Console) -> None:
             f"{max((rung.cpu_s for rung in rungs), default=0.0):.2f}",
         )
     console.print(table)
-    rungs = [rung for ladder in value for rung in ladder.rungs]
+    rungs = [rung for ladder in ladders for rung in ladder.rungs]
     console.print(dict(Counter(rung.method or rung.status for rung in rungs).most_common()))
     slow = sorted((rung.cpu_s for rung in rungs), reverse=True)
     console.print(

@@ -100,8 +100,8 @@ def _combine(block: Block, vectors: list[Vector]) -> Vector:
     """sum_i G_i' v_i."""
     total = [ZERO] * len(block.cost)
     for cone, vector in zip(block.cones, vectors, strict=True):
-        for row, value in zip(cone.G, vector, strict=True):
-            total = [t + r * value for t, r in zip(total, row, strict=True)]
+        for row, factor in zip(cone.G, vector, strict=True):
+            total = [t + r * factor for t, r in zip(total, row, strict=True)]
     return total
 
 
@@ -196,13 +196,13 @@ class _Systems:
         for through, r in zip(self.through, right, strict=True):
             rest = [value + dot(row, r) for value, row in zip(rest, through, strict=True)]
         p = _back(self.schur, rest) if rest else []
-        result = []
+        pivots = []
         for block, factor, r in zip(self.blocks, self.factors, right, strict=True):
             pull = r
             for value, row in zip(p, block.coupling, strict=True):
                 pull = [a - value * b for a, b in zip(pull, row, strict=True)]
-            result.append(_back(factor, pull))
-        return result, p
+            pivots.append(_back(factor, pull))
+        return pivots, p
 
 
 def _cholesky(upper: Matrix) -> Matrix:

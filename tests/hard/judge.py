@@ -115,11 +115,11 @@ def _judge_counterweights(
     after = data.after(u)
     sizes = [size * square for size in _sizes(data, u)]
     noise = 16 * EPS * sum((w * s for w, s in zip(_weights(objective), sizes, strict=True)), ZERO)
-    value = objective.value(after) * square
+    objective_value = objective.value(after) * square
     rest = objective.value(data.baseline) * square
     verdict.demand(
-        abs(value - certificate.objective) <= ROUNDING * rest + noise,
-        f"objective {certificate.objective!r} is {mp.nstr(value, 17)}",
+        abs(objective_value - certificate.objective) <= ROUNDING * rest + noise,
+        f"objective {certificate.objective!r} is {mp.nstr(objective_value, 17)}",
     )
     peaks = [peak * square for peak in _peaks(after)]
     pair = (answer.residual.after.force.peak_N, answer.residual.after.moment.peak_Nm)
@@ -132,8 +132,8 @@ def _judge_counterweights(
     noise += expected.noise
     # where there is nothing without counterweights (and a ceiling asks for some), their own effect is the measure
     rest = rest or sum((w * s for w, s in zip(_weights(objective), sizes, strict=True)), ZERO)
-    verdict.objective_error = _share(value - expected.objective, rest, noise)
-    above, below = value - expected.objective, expected.relaxed - value
+    verdict.objective_error = _share(objective_value - expected.objective, rest, noise)
+    above, below = objective_value - expected.objective, expected.relaxed - objective_value
     verdict.demand(
         above <= relative_gap * rest * (1 + ROUNDING) + noise, f"objective {verdict.objective_error:.2e} above"
     )

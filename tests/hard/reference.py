@@ -128,8 +128,8 @@ class _Program:
             for row, ((response, _), s) in enumerate(zip(self.goal.ceilings, size, strict=True))
         )
         floors = tuple(-cap / s for (_, cap), s in zip(self.goal.ceilings, size, strict=True))
-        value, _ = _Program(self.data, Goal(terms, floors, (), False)).smallest_objective(_HAIR / 1000)
-        return value
+        smallest, _ = _Program(self.data, Goal(terms, floors, (), False)).smallest_objective(_HAIR / 1000)
+        return smallest
 
     def relaxed(self, share: Number) -> "_Program":
         """The program with every ceiling raised by a share of its size."""

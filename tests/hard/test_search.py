@@ -89,8 +89,8 @@ def test_no_point_is_below_the_bound(body: Body, rng: random.Random) -> None:
             if web.cosine is not None:
                 turn = web.centre * mp.mpc(web.cosine, web.sine * rng.choice([-1, 1]))
             u[k] = mass * web.radius * turn
-        value = objective.value(data.after(u))
-        assert bound <= value * (1 + mp.mpf("1e-13")) + sum(data.noise), _record(body)
+        peak = objective.value(data.after(u))
+        assert bound <= peak * (1 + mp.mpf("1e-13")) + sum(data.noise), _record(body)
 
 
 @_search(30)
@@ -126,7 +126,7 @@ def test_units_by_powers_of_two_change_no_bit(body: Body, mass: int, length: int
 def _inside(body: Body) -> bool:
     """Whether the request is still within the ranges of the fields, and no length is so small that it counts as 0."""
     data = body["machine"]
-    if any(0 < abs(entry["position_m"]) < 1e-200 for entry in (*data["throws"], *data["webs"])):
+    if any(0 < abs(plane["position_m"]) < 1e-200 for plane in (*data["throws"], *data["webs"])):
         return False
     try:
         OptimizeRequest.model_validate(body)

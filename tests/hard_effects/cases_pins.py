@@ -151,7 +151,7 @@ def _elastic(case: Pins) -> Iterator[Finding]:
 def _contact(case: Pins) -> Iterator[Finding]:
     answer, exact = _answer({"pins": case.pins, "rotation_torque_Nm": case.torque}), Pattern(case.pins, case.torque)
     contacts = [exact.contact(a) for a in answer.angle_deg]
-    largest = max(abs(value) for line in contacts for value in line)
+    largest = max(abs(force) for line in contacts for force in line)
     off = max(
         abs(mp.mpf(pin.load_N[t]) - line[k]) for t, line in enumerate(contacts) for k, pin in enumerate(answer.pins)
     )

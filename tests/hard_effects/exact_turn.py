@@ -84,7 +84,7 @@ class Machine:
             for centre, distance in near:
                 while distance < 0.1:
                     own = (centre - distance - row.ahead, centre + distance - row.ahead)
-                    grid |= {mp.fmod(value + 4 * mp.pi, 2 * mp.pi) for value in own}
+                    grid |= {mp.fmod(angle + 4 * mp.pi, 2 * mp.pi) for angle in own}
                     distance *= 1.5
         return sorted(grid)
 

@@ -95,9 +95,9 @@ def test_a_database_of_the_first_release_goes_on(settings: Settings) -> None:
                 assert pa.Table.from_batches(rows.batches).equals(expected)
         best = jobs.get(BEST)
         assert (best.selected, best.kept) == (400, 3)
-        value = pa.Table.from_batches(jobs.selection(best, jobs.schema(best)).batches)
-        values = sorted(value for value in expected["force_peak_N"].to_pylist() if value is not None)
-        assert value["force_peak_N"].to_pylist() == values[:3]
+        selection = pa.Table.from_batches(jobs.selection(best, jobs.schema(best)).batches)
+        values = sorted(peak for peak in expected["force_peak_N"].to_pylist() if peak is not None)
+        assert selection["force_peak_N"].to_pylist() == values[:3]
         # what was read has a digest now, and is verified from now on
         assert all(piece.digest for piece in desk._parts.store.pieces(DONE))
         assert json.loads(jobs.schema(best).metadata[b"counterweight.request"])["top"]["count"] == 3
@@ -143,9 +143,9 @@ def test_a_database_without_counts_of_infeasible_rows_goes_on(settings: Settings
         connection.execute(text("UPDATE schema SET number = 3"))
         connection.execute(text("UPDATE jobs SET failed = 7, invalid = 2"))
     desk = JobService(settings)
-    value = desk.of().get(DONE)
+    task = desk.of().get(DONE)
     desk.close()
-    assert (value.done, value.failed, value.invalid, value.infeasible) == (400, 7, 2, 0)
+    assert (task.done, task.failed, task.invalid, task.infeasible) == (400, 7, 2, 0)
     with engine.connect() as connection:
         assert connection.scalar(text("SELECT number FROM schema")) == NUMBER
     engine.dispose()

@@ -77,12 +77,12 @@ def test_cancel_then_remove(client: TestClient) -> None:
     assert (cancelled.status_code, cancelled.json()["state"]) == (200, "cancelled")
     if running.headers["sweep-state"] == "running":
         assert running.headers["sweep-complete"] == "false"
-    value = cancelled.json()["done"]
+    count = cancelled.json()["done"]
     rows = pa.ipc.open_stream(client.get(f"{path}/results?columns=index&format=arrow").content).read_all()
     index = rows["index"].to_pylist()
-    assert (len(index), index) == (value, sorted(set(index)))
-    assert 0 < value < 9_000_000
-    assert client.get(path).json()["done"] == value
+    assert (len(index), index) == (count, sorted(set(index)))
+    assert 0 < count < 9_000_000
+    assert client.get(path).json()["done"] == count
     assert client.delete(path).status_code == 204
     for answer in (client.get(path), client.delete(path), client.get(f"{path}/results"), client.get(f"{path}/events")):
         assert (answer.status_code, answer.json()["title"]) == (404, "Unknown sweep")

@@ -69,15 +69,15 @@ def best_by_force(machine: dict[str, Any], combine: str, ceilings: dict[str, flo
     there = cp.Parameter(webs, complex=True)
     rest = cp.Variable(len(places) - webs, complex=True)
     terms = order.terms(cp.hstack([there, rest]))
-    sums = [sum(cp.abs(value) for value in both) for both in terms]
+    sums = [sum(cp.abs(part_force) for part_force in both) for both in terms]
     goals = [sums[0], sums[1] / order.span]
     limits = [cp.abs(rest[k]) <= place["max_mass_kg"] for k, place in enumerate(places[webs:])]
     for name, most in ceilings.items():
         with_, against = terms[0 if name.startswith("force") else 1]
         sign = 1.0 if "_x_" in name else -1.0
         limits.append(cp.abs(with_ + sign * cp.conj(against)) * OMEGA**2 <= most)
-    value = (goals[0] + goals[1]) if combine == "sum" else cp.maximum(*goals)
-    problem = cp.Problem(cp.Minimize(value * OMEGA**2 * 1e-3), limits)
+    objective = (goals[0] + goals[1]) if combine == "sum" else cp.maximum(*goals)
+    problem = cp.Problem(cp.Minimize(objective * OMEGA**2 * 1e-3), limits)
     best = np.inf
     for some in sets(machine):
         there.value = some

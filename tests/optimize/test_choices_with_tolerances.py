@@ -282,8 +282,8 @@ def test_bearings_of_masses_that_are_at_least_so_heavy(share: float) -> None:
     assert answer.certificate is not None
     assert answer.certificate.lower_bound is not None
     sizes, angles = np.linspace(8.0, 20.0, 25), np.radians(np.arange(0.0, 360.0, 4.0))
-    value = np.concatenate([[0j], (sizes[:, None] * np.exp(1j * angles)).ravel()]) * RADIUS
-    first, last = (part.ravel() for part in np.meshgrid(value, value, indexing="ij"))
+    unbalances = np.concatenate([[0j], (sizes[:, None] * np.exp(1j * angles)).ravel()]) * RADIUS
+    first, last = (part.ravel() for part in np.meshgrid(unbalances, unbalances, indexing="ij"))
     loads = []
     for side in (-1.0, 1.0):
 

@@ -125,10 +125,10 @@ def test_the_best_of_the_machine_as_it_is_given_is_proven(name: str) -> None:
         ("nominal_lower_bound", 1.001),
         ("nominal", 1.001),
     ):
-        value = price[field]
-        price[field] = value * factor
+        figure = price[field]
+        price[field] = figure * factor
         assert is_broken(request, answer), field
-        price[field] = value
+        price[field] = figure
     # a bound that is lower than was sought is no lie, and is named
     price["nominal_lower_bound"] *= 0.999
     judged = checker().verify(request, answer)

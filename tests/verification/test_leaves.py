@@ -80,7 +80,7 @@ def test_all_leaves_are_counted(name: str) -> None:
     verdict = checker().verify(request, answer)
     checker()
     silent = sys.modules["verify_leaves"].REMARKS
-    named = [entry.split("/")[2:] for entry in verdict["not_covered"]]
+    named = [pointer.split("/")[2:] for pointer in verdict["not_covered"]]
     missed = counted = 0
     for path in _leaves(answer):
         if silent & {*path} or {"multipliers", "nominal_multipliers", "implied_max_mass_kg"} & {*path}:

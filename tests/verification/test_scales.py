@@ -150,10 +150,10 @@ def test_every_figure_of_masses_that_are_off_is_covered() -> None:
         ("sensitivity", "objective_rise_per_deg"),
     )
     for room, field in places:
-        value = answer[room][field]
-        answer[room][field] = value * 1.001
+        figure = answer[room][field]
+        answer[room][field] = figure * 1.001
         assert is_broken(request, answer), field
-        answer[room][field] = value
+        answer[room][field] = figure
 
 
 @pytest.mark.parametrize("size", [1e-6, 0.5, 20.0])
@@ -181,9 +181,9 @@ def _full_plate(opening_deg: float) -> bool:
         "chord_height_m": None,
     }
     lever = 2 / 3 * areal * (outer**3 - inner**3) * sin(angle) / mass
-    entry = part("numbers").Place({"mass_kg": mass, "radius_m": lever, "shape": shape}, "answer", "counterweights")
+    weight = part("numbers").Place({"mass_kg": mass, "radius_m": lever, "shape": shape}, "answer", "counterweights")
     plate = part("plates").Plate(False, inner, outer, areal, radians(60.0))
-    return all(room.high >= 0 for _, _, room, _ in part("weights")._cut(plate, entry))
+    return all(room.high >= 0 for _, _, room, _ in part("weights")._cut(plate, weight))
 
 
 @pytest.mark.parametrize(("opening_deg", "held"), [(45.0, True), (60.0, True), (60.0 + 1e-9, False)])

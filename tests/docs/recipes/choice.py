@@ -64,7 +64,7 @@ with TestClient(create_app(Settings(), warm=False)) as client:
 
     # independent: every set of castings, each fitted by hand
     optimum, every = ask(machine), list(by_hand(machine))
-    least = min(objective(value) for _, value in every)
+    least = min(objective(answer) for _, answer in every)
     assert abs(objective(optimum) - least) < 1e-9 * least, (objective(optimum), least)
     for fitted, own in zip(optimum["counterweights"], castings, strict=True):
         assert fitted["mass_kg"] == 0 or {"mass_kg": fitted["mass_kg"], "angle_deg": fitted["angle_deg"]} in own, fitted

@@ -19,9 +19,9 @@ ENDS = (-485.0, -315.0, -245.0, -105.0, -35.0, 35.0, 105.0, 245.0, 315.0, 485.0)
 def native(document):
     """Nine parametric bodies, driven by a spreadsheet."""
     sheet = document.addObject("Spreadsheet::Sheet", "Parameters")
-    for row, (alias, value) in enumerate((("crank_radius", RADIUS), ("pin_radius", PIN)), start=1):
+    for row, (alias, length) in enumerate((("crank_radius", RADIUS), ("pin_radius", PIN)), start=1):
         sheet.set(f"A{row}", alias)
-        sheet.set(f"B{row}", f"={value} mm")
+        sheet.set(f"B{row}", f"={length} mm")
         sheet.setAlias(f"B{row}", alias)
     document.recompute()
     bodies = []
