@@ -4,8 +4,8 @@
 
 Answers of optimize, pareto and pin loads, and rows of sweeps as a JSON list or as NDJSON. The standard library, Python
 3.8 or newer; nothing of the service is imported. The other verify_*.py have to lie beside this file. Which of them says
-what, by which formulas and to which tolerance is in docs/verify.md. Exit code 0: every claim holds, 1: something is
-broken, 2: the files cannot be read, 3: nothing is broken, but there are claims that are not covered; they are named.
+what, by which formulas and to which tolerance is in docs/verify.md. Exit code 0: every claim holds; 1: something is
+broken; 2: the files cannot be read; 3: nothing is broken, but claims are not covered. These are named.
 """
 
 from __future__ import annotations

@@ -1,6 +1,6 @@
 """Goals over the whole turn: what their cuts prove.
 
-Of bearing loads, bending moments, and force and moment of all orders, the multipliers prove a bound by cuts: each is
+Of bearing loads, bending moments, and force and moment of all orders, the multipliers prove a bound by cuts. Each is
 the response at one shaft angle, which is evaluated here from rods and masses. Gas and friction where loads count, roll
 and balance shafts are not covered.
 """

@@ -250,8 +250,8 @@ class LoadShapes:
 def peaks(shapes: LoadShapes, torque: PeriodicTable) -> tuple[Real, Real]:
     """Largest |Q| over the turn, (n,) N, and the first angle where it stands, (n,) degrees in [0, 360).
 
-    Between the entries of the torque the derivative is continuous; its roots are bracketed by panels of half a
-    degree, the entries and the roots for a constant torque, and bisected to the last digit.
+    Between the entries of the torque the derivative is continuous. Panels of half a degree, the entries, and the roots
+    for a constant torque bracket its roots. These are bisected to the last digit.
     """
     fixed = np.concatenate([np.arange(0.0, 360.0 + _PANEL_DEG / 2.0, _PANEL_DEG), torque.angle_deg])
     own = shapes.candidates()

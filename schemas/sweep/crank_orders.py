@@ -1,7 +1,8 @@
 """Orders of the crank angles along a shaft, and which of them are the same machine.
 
-A machine is the same when all cranks are turned alike (only the moment changes at which it is looked at), seen in a
-mirror along the shaft (its rows are those of the image, and it turns the other way), and seen from its other end.
+A machine is the same when all cranks are turned by one angle: only the moment changes at which it is looked at. It is
+the same in a mirror along the shaft, where its rows are those of the image and it turns the other way. It is the same
+seen from its other end.
 """
 
 from collections import Counter

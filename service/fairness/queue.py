@@ -86,9 +86,9 @@ class Turn:
 class FairQueue:
     """So many turns at a time, and some above them for owners who have none, and had little lately.
 
-    Next is the owner who has had turns for the least time, each in the order of its calls; but nobody waits for
-    ever, however many come who have had nothing. When as many wait as may, the owner of whom most wait gives up its
-    last place to one of whom fewer wait.
+    Next is the owner who has had turns for the least time, each in the order of its calls. But nobody waits for ever,
+    however many come who have had nothing. When as many wait as may, the owner of whom most wait gives up its last
+    place to one of whom fewer wait.
 
     Little is at most half of an equal share of the cores that turns are for, among all owners who have a turn or wait.
     For at least half of the time, the owner had no turn and waited for one at most. On a full machine, owners who ask

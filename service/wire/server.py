@@ -44,8 +44,8 @@ def listen(settings: Settings) -> socket.socket:
     """
     family = socket.AF_INET6 if ":" in settings.host else socket.AF_INET
     listening = socket.create_server((settings.host, settings.port), family=family, backlog=_BACKLOG)
-    # inherited by every connection. The event loop sets it only where a socket names its protocol, which these do not;
-    # without it an answer on a kept connection waits 40 ms for the client's delayed acknowledgement
+    # inherited by every connection. The event loop sets it only where a socket names its protocol, which these do not.
+    # Without it an answer on a kept connection waits 40 ms for the client's delayed acknowledgement
     listening.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
     return listening
 
