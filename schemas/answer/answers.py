@@ -53,8 +53,8 @@ class GoalReached(Model):
     limit: float = Field(description="what the goals after it had to keep", examples=[30405.7])
     multipliers: BoundMultipliers | None = Field(
         None,
-        description="of the bound of a goal before the last, under the limits of those before it; null of the last,"
-        " whose multipliers are the certificate's, of what castings cost, and where choices were searched",
+        description="of the bound of a goal before the last, under the limits of those before it. Null of the last,"
+        " whose multipliers are the certificate's; of what castings cost; and where choices were searched",
         examples=[None],
     )
 
@@ -85,10 +85,10 @@ class Certificate(Model):
         description="total mass above that bound, over `yardstick`; null likewise", examples=[2e-9]
     )
     mass_yardstick_kg: Kilograms | None = Field(
-        description="what the mass gap is relative to: the total mass; where that is less, 1e-5 of the minimum mass"
-        " that could cancel the objective, or a response under a ceiling, at the web where a kilogram does most. The"
-        " gap allowed then changes neither by more than the tolerance of a ceiling. Null if minimum mass was"
-        " not asked for",
+        description="what the mass gap is relative to: the total mass. Where that is less, it is 1e-5 of the minimum"
+        " mass that could cancel the objective, or a response under a ceiling, at the web where a kilogram does most."
+        " The gap allowed then changes neither by more than the tolerance of a ceiling. Null if minimum mass was not"
+        " asked for",
         examples=[41.2],
     )
     mass_objective_limit: float | None = Field(
@@ -108,8 +108,8 @@ class Certificate(Model):
     rounds: int | None = Field(None, description="programs solved to find them; null likewise", examples=[5])
     continuous_lower_bound: float | None = Field(
         None,
-        description="the bound that multipliers prove: no counterweights of any mass and angle within the limits have a"
-        " smaller objective; null where nothing is chosen from a catalogue, or if nothing is proven",
+        description="the bound that multipliers prove: no counterweights of any mass and angle within the limits have"
+        " a smaller objective. Null where nothing is chosen from a catalogue, or if nothing is proven",
         examples=[None],
     )
     nodes: int | None = Field(
@@ -179,9 +179,9 @@ class OptimizeAnswer(OutputFields, Answer):
     )
     shadow_prices: tuple[ShadowPrice, ...] = Field(
         (),
-        description="price of every limit that the answer touches or that holds the objective up, webs in the "
-        "machine's order and then the machine's limits; empty if infeasible, and with priorities, scenarios or "
-        "tolerances",
+        description="price of every limit that the answer touches or that holds the objective up, webs in the"
+        " machine's order and then the machine's limits. Empty if infeasible, and with priorities, scenarios or"
+        " tolerances",
         examples=[[{"limit": "max_mass", "web": "1a", "value": 102.8, "unit": "N/kg"}]],
     )
     alternatives: tuple[Alternative, ...] = Field(

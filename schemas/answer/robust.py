@@ -49,8 +49,8 @@ class WorstCase(WorstPeaks):
         examples=[None],
     )
     objective: float = Field(
-        description="the largest weighted objective, which is what was minimised and certified; of a sum of peaks every"
-        " peak has its own worst case, so that the sum is no less than the worst case of the sum",
+        description="the largest weighted objective, which is what was minimised and certified. In a sum of peaks"
+        " every peak has its own worst case. So the sum is no less than the worst case of the sum",
         examples=[31730.2],
     )
 

@@ -196,10 +196,10 @@ class CornerCertificate(Model):
         description="total mass above that bound, over `yardstick`; null likewise", examples=[3e-8]
     )
     mass_yardstick_kg: Kilograms | None = Field(
-        description="what the mass gap is relative to: the total mass; where that is less, 1e-5 of the minimum mass"
-        " that could cancel one of the peaks, or a response under a ceiling, at the web where a kilogram does most."
-        " The gap allowed then changes none by more than the tolerance of a ceiling. Null if minimum mass was not"
-        " asked for",
+        description="what the mass gap is relative to: the total mass. Where that is less, it is 1e-5 of the minimum"
+        " mass that could cancel one of the peaks, or a response under a ceiling, at the web where a kilogram does"
+        " most. The gap allowed then changes none by more than the tolerance of a ceiling. Null if minimum mass was"
+        " not asked for",
         examples=[236.35],
     )
     mass_force_limit_N: Newtons | None = Field(
@@ -236,12 +236,12 @@ class ParetoPoint(Model):
     moment_peak_Nm: NewtonMetres = Field(description="first-order peak moment, likewise", examples=[20123.28])
     weighted_force_peak_N: Newtons = Field(
         description="peak of the force with direction weights in the worst case, which is traded, times the weight of"
-        " its scenario; the peak force where all are 1 and nothing is off",
+        " its scenario. It is the peak force where all are 1 and nothing is off",
         examples=[7504.6],
     )
     weighted_moment_peak_Nm: NewtonMetres = Field(
         description="peak of the moment with direction weights in the worst case, which is traded, times the weight of"
-        " its scenario; the peak moment where all are 1 and nothing is off",
+        " its scenario. It is the peak moment where all are 1 and nothing is off",
         examples=[20123.28],
     )
     worst_case: WorstPeaks | None = Field(

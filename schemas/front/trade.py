@@ -55,7 +55,7 @@ class TradedCertificate(Model):
     )
     mass_lower_bound_kg: Kilograms | None = Field(
         description="no counterweights that are as good in every response, to within that gap, have a smaller total"
-        " mass; null if minimum mass was not asked for, or the mass is traded",
+        " mass. Null if minimum mass was not asked for, or the mass is traded",
         examples=[41.2],
     )
     mass_relative_gap: float | None = Field(

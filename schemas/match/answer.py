@@ -64,7 +64,7 @@ class MatchCertificate(Model):
         examples=[383.8],
     )
     method: Literal["exhaustion", "sorting"] = Field(
-        description="exhaustion: every assignment counts, those that a bound excludes are left out; sorting: the best"
+        description="exhaustion: every assignment counts, those that a bound excludes are left out. sorting: the best"
         " of a search, beside the bound that sorting the masses proves, of all or set by set of the parts",
         examples=["exhaustion"],
     )

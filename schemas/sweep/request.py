@@ -95,8 +95,8 @@ class SweepRequest(Ruled):
     )
     details: Flag = Field(
         False,
-        description="every column in detail comes along: by bearing, row and load case, what single answers have beside"
-        " the usual columns; otherwise only those that are named in columns, top or pareto",
+        description="every column in detail comes along. It has, by bearing, row and load case, what single answers"
+        " have beside the usual columns. Otherwise only those that are named in columns, top or pareto",
         examples=[False],
     )
     multipliers: Flag = Field(
