@@ -24,6 +24,9 @@ export const share = (value) => (value > 0 && value < 1e-7 ? "less than 0.00001 
 
 export const label = (name) => name.replace(SUFFIX, "").replaceAll("_", " ");
 
+// what a field is, for people: null is a field that is left empty
+export const hint = (about) => about.replace(/\bnull\b/g, "empty").replace(/\bNull\b/g, "Empty");
+
 export const singular = (name) => label(name).replace(/s$/, "");
 
 // a value of a request, which may be anything, as a text: not every object can be one by itself
