@@ -15,12 +15,13 @@ from math import inf
 from typing import Any, Callable, Dict, Iterator
 
 from verify_claims import CODES, Claim, covered, judged, main
+from verify_front import front
 from verify_leaves import leaves
-from verify_many import front, sweep
 from verify_match import matching
 from verify_numbers import Place, Unreadable, read
 from verify_pin_loads import pin_loads
 from verify_single import single
+from verify_sweep import sweep
 
 __all__ = ["CODES", "PLACES", "Unreadable", "main", "read", "verify"]
 

@@ -162,7 +162,7 @@ def test_a_limit_that_is_worth_something_is_listed(price: float, touched: bool, 
 ])  # fmt: skip
 def test_a_value_of_an_axis_is_listed_or_between_its_ends(values: Any, value: Any, right: bool | None) -> None:
     path = "/machine/webs/0/max_mass_kg"
-    room = part("many")._on_axis(place({"path": path, **values}, "request"), place({path: value}))[2]
+    room = part("sweep")._on_axis(place({"path": path, **values}, "request"), place({path: value}))[2]
     assert (None if room is None else fits(room)) == right
 
 
@@ -171,7 +171,7 @@ def _curve(points: list[tuple[float, float]], knee: int | None, **ends: float) -
     fields = {"smallest_force_N": x, "moment_at_smallest_force_Nm": high, "force_at_smallest_moment_N": far}
     peaks = [{"status": "optimal", "weighted_force_peak_N": f, "weighted_moment_peak_Nm": m} for f, m in points]
     body = {"points": peaks, "ends": fields | {"smallest_moment_Nm": low} | ends, "status": "optimal", "knee": knee}
-    return held(part("many")._shape(place(body)))
+    return held(part("front")._shape(place(body)))
 
 
 def test_the_knee_is_farthest_below_the_line_between_the_ends() -> None:
