@@ -16,7 +16,8 @@ from verify_curves import root
 from verify_cuts import Group, Part, Term
 from verify_machine import ON_FRAME, Machine, Web, over
 from verify_numbers import ONE, ZERO, J, NotCovered, Number, Place, largest, total
-from verify_program import CEILINGS, of_plate, support, weighed, worth_of_budget
+from verify_program import CEILINGS, weighed
+from verify_worth import of_plate, support, worth_of_budget
 
 #: components on the frame, of which the real part alone counts
 ALONG = [name for name in CEILINGS if ":" in name]

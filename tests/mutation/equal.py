@@ -98,7 +98,7 @@ _VERIFY: dict[str, str] = {
     "verify_gas.py slopes: max -> min": "what encloses steeper slopes encloses these, in more pieces",
     "verify_pistons.py steepness: (within + self.ahead) % TURN < pi -> (within + self.ahead) % TURN <= pi": "of the"
     " middles of pieces, which end at dead centres",
-    "verify_program.py spent: web.plate.lever(0.0) -> web.plate.lever(0.001)": "an end of the prices that are halved,"
+    "verify_worth.py spent: web.plate.lever(0.0) -> web.plate.lever(0.001)": "an end of the prices that are halved,"
     " less by a millionth",
     "verify_gas.py breaks: angle + self.lead -> angle - self.lead": "it is a revolution of two, forwards or backwards",
     "verify_claims.py judged: kinds[claim][:2] -> kinds[claim][:3]": "a pair is never above what begins with it",
@@ -264,8 +264,8 @@ _STEPS = (
     "verify_program.py _balance: abs(slope[name]).high > 0",
     "verify_program.py lightest: limit.high > 0",
     "verify_program.py lightest: does.low > 0",
-    "verify_program.py of_plate: pull.high <= 0",
-    "verify_program.py of_plate: web.limit.high <= 0",
+    "verify_worth.py of_plate: pull.high <= 0",
+    "verify_worth.py of_plate: web.limit.high <= 0",
     "verify_turn.py over_turn: (least.number() - machine.fixed).low <= 0",
     "verify_weights.py counterweight: mass.high > 0",
     "verify_weights.py _alike: (entry / 'mass_kg').number().high > 0",

@@ -77,7 +77,7 @@ def test_products_are_those_of_all_corners(first: Any, second: Any) -> None:
 @given(rectangles(), st.floats(0, 360), st.floats(1e-9, 90))
 def test_what_a_sector_takes_off_is_enclosed(pull: Any, centre: float, half: float) -> None:
     """Independent: doubles, of every corner in its own direction where that is in the sector, and at both edges."""
-    low, high = map(float, ends(part("program").support(pull, (centre, half))))
+    low, high = map(float, ends(part("worth").support(pull, (centre, half))))
     for x, y in product(ends(pull), sides(pull)):
         length, angle = math.hypot(x, y), math.degrees(math.atan2(y, x))
         beside = abs((angle - centre + 180) % 360 - 180)

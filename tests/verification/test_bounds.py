@@ -296,7 +296,7 @@ def test_gaps_of_the_mass_are_up_to_a_ten_thousandth() -> None:
 def test_a_budget_is_worth_what_is_left_out_next(price: float, expected: float) -> None:
     """Analytic: gains of 8, 2 and -1 on 3, 4 and 5 kg with a budget of 5: the next kilogram is worth 2."""
     gains = [(real(8.0), real(3.0)), (real(2.0), real(4.0)), (real(-1.0), real(5.0))]
-    actual = part("program").worth_of_budget(real(price), gains, real(5.0))
+    actual = part("worth").worth_of_budget(real(price), gains, real(5.0))
     assert float(actual) == expected
 
 
