@@ -15,7 +15,7 @@ from verify_program import CEILINGS
 from verify_single import single
 
 UNSURE = 1e-9
-ORDERED = "crank_orders"  # a design that varies the crank angles instead of axes
+CRANK_ORDERS = "crank_orders"  # a design that varies the crank angles instead of axes
 #: of a certificate what no row has, and what it has with its multipliers alone
 NO_COLUMN, WITH_MULTIPLIERS = "objective_without_counterweights", "mass_objective_limit"
 #: how columns begin that hold loads of bearings and bending moments
@@ -34,7 +34,7 @@ OF_STATUS = {"objective", "lower_bound", "yardstick"}
 def sweep(request: Place, rows: Place) -> Iterator[Claim]:
     """Rows of a sweep, each as the answer to the base with the values of its axes or in an order of its cranks."""
     paths = [(axis / "path").text() for axis in request / "axes"]
-    if (request / "design").value == ORDERED:
+    if (request / "design").value == CRANK_ORDERS:
         paths = [f"/machine/throws/{t}/crank_angle_deg" for t, _ in enumerate(request / "angles_deg")]
     first = next(iter(rows), Place(None))
     for row in rows:
@@ -54,7 +54,7 @@ def _design(request: Place, paths: Sequence[str], row: Place) -> Claims:
         body = with_value(body, path.split("/")[1:], (row / path).value, request / "axes")
     yield from covered(_row(Place(body, "request", "base"), row, has_selection))
     yield from (_on_axis(axis, row) for axis in request / "axes")
-    if (request / "design").value == ORDERED:
+    if (request / "design").value == CRANK_ORDERS:
         yield from _in_order([row / path for path in paths], request / "angles_deg")
 
 

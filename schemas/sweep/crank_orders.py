@@ -20,7 +20,7 @@ from schemas.machine.throws import Row, row_cylinders
 _NEAR = 1e-9
 #: different sequences of angles that are looked through
 MAX_SEQUENCES = 4_000_000
-MAX_ORDERED = 16
+MAX_ANGLES = 16
 
 
 class Symmetry(NamedTuple):

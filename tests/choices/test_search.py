@@ -37,7 +37,7 @@ def search_result_of(
 def method(request: pytest.FixtureRequest, monkeypatch: pytest.MonkeyPatch) -> str:
     if request.param == "quarters":
         # sums of halves that are not listed, however few they are
-        monkeypatch.setattr(halves, "_LISTED", 0)
+        monkeypatch.setattr(halves, "_LIST_SIZE", 0)
         monkeypatch.setattr(halves, "_FEW", 0)
         monkeypatch.setattr(pairs, "_FEWEST", 10)
         monkeypatch.setattr(pairs, "_SLAB", 7)
@@ -132,7 +132,7 @@ def test_ten_million_sets(seed: int, monkeypatch: pytest.MonkeyPatch) -> None:
         best = min(best, float(np.min(problem.objective(options.of(options.unbalance, sets)))))
     size = float(yardstick(problem.alone())[0])
     for listed in (20_000, 0):
-        monkeypatch.setattr(halves, "_LISTED", listed)
+        monkeypatch.setattr(halves, "_LIST_SIZE", listed)
         chosen, search_result = search_result_of(problem, options)
         assert (search_result.method, search_result.proven) == (EXHAUSTED, True)
         assert abs(float(problem.objective(options.of(options.unbalance, chosen))) - best) <= EQUAL * size
