@@ -5,10 +5,11 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
-from schemas.answer.answers import EffectUse, Timing
-from schemas.answer.counterweights import Counterweight, FittedShaft
+from schemas.answer.answers import EffectUses, Timing
+from schemas.answer.caution import StatusReason
+from schemas.answer.counterweights import ShaftsMass, ShaftUnbalances, WebCounterweights
 from schemas.answer.first_order import FirstOrder, Floor
-from schemas.answer.infeasibility import Infeasibility
+from schemas.answer.infeasibility import InfeasibilityProof
 from schemas.answer.limits import MachineLimit
 from schemas.answer.proof import EndMultipliers, Multipliers
 from schemas.answer.robust import WorstPeaks
@@ -226,10 +227,7 @@ class ParetoPoint(Model):
         description="optimal: certified to the asked gap; inaccurate: certified to a larger gap, which is reported",
         examples=["optimal"],
     )
-    status_reason: str = Field(
-        description="why the status is what it is, in a sentence",
-        examples=["The gap to the proven lower bound is within the asked one, and every limit is kept."],
-    )
+    status_reason: StatusReason
     force_peak_N: Newtons = Field(
         description="first-order peak force of the unchanged machine, nothing off", examples=[7504.6]
     )
@@ -253,15 +251,9 @@ class ParetoPoint(Model):
     total_mass_kg: Kilograms = Field(
         description="total mass of the counterweights on the crankshaft", examples=[236.35]
     )
-    counterweights: tuple[Counterweight, ...] = Field(
-        description="one for each web, in the machine's order", examples=[[]]
-    )
-    balance_shafts: tuple[FittedShaft, ...] = Field(
-        (), description="unbalances of the balance shafts, in their order", examples=[[]]
-    )
-    balance_shafts_mass_kg: Kilograms | None = Field(
-        None, description="total mass of these; null where there are none", examples=[None]
-    )
+    counterweights: WebCounterweights
+    balance_shafts: ShaftUnbalances = ()
+    balance_shafts_mass_kg: ShaftsMass = None
     active_limits: tuple[MachineLimit, ...] = Field(
         description="limits of the whole machine that the point touches", examples=[["max_total_mass"]]
     )
@@ -331,9 +323,7 @@ class ParetoFront(Displayable):
         " beyond any need: it is proven that whatever the front is made of, and the lightest, lies within them",
         examples=[{"1a": 412.5}],
     )
-    infeasibility: Infeasibility | None = Field(
-        None, description="which ceilings conflict; only if infeasible", examples=[None]
-    )
+    infeasibility: InfeasibilityProof = None
 
 
 class ParetoAnswer(Answer):
@@ -356,8 +346,5 @@ class ParetoAnswer(Answer):
     )
     floor: Floor = Field(description="what no counterweights can remove", examples=[{"force_N": 5003.1}])
     reference_plane_m: Metres = Field(description="plane of the moments", examples=[0.0])
-    effects: dict[str, EffectUse] = Field(
-        description="every effect, whether it was simulated, for which outputs, and its time",
-        examples=[{"rotating_inertia": {"simulated": True, "needed_by": ["residual"], "time_ms": 0.1}}],
-    )
+    effects: EffectUses
     timing: Timing = Field(description="where the time went", examples=[{"total_ms": 210.0}])

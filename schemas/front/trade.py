@@ -4,8 +4,9 @@ from typing import TYPE_CHECKING, Annotated, Literal
 
 from pydantic import Field
 
-from schemas.answer.counterweights import Counterweight, FittedShaft
-from schemas.answer.infeasibility import Infeasibility
+from schemas.answer.caution import StatusReason
+from schemas.answer.counterweights import ShaftsMass, ShaftUnbalances, WebCounterweights
+from schemas.answer.infeasibility import InfeasibilityProof
 from schemas.base.model import Displayable, Model
 from schemas.base.quantities import Kilograms, NewtonMetres, Newtons
 from schemas.base.responses import RESPONSES
@@ -73,10 +74,7 @@ class TradedPoint(Model):
         description="optimal: certified to the asked gap; inaccurate: certified to a larger gap, which is reported",
         examples=["optimal"],
     )
-    status_reason: str = Field(
-        description="why the status is what it is, in a sentence",
-        examples=["The gap to the proven lower bound is within the asked one, and every limit is kept."],
-    )
+    status_reason: StatusReason
     values: tuple[float, ...] = Field(
         description="one for each response, in their order, in the worst case, with the weights of scenarios; of what"
         " is known by a bracket its upper end",
@@ -99,15 +97,9 @@ class TradedPoint(Model):
     )
     moment_peak_Nm: NewtonMetres = Field(description="first-order peak moment, likewise", examples=[20123.28])
     total_mass_kg: Kilograms = Field(description="total mass of the counterweights on the crankshaft", examples=[41.2])
-    counterweights: tuple[Counterweight, ...] = Field(
-        description="one for each web, in the machine's order", examples=[[]]
-    )
-    balance_shafts: tuple[FittedShaft, ...] = Field(
-        (), description="unbalances of the balance shafts, in their order", examples=[[]]
-    )
-    balance_shafts_mass_kg: Kilograms | None = Field(
-        None, description="total mass of these; null where there are none", examples=[None]
-    )
+    counterweights: WebCounterweights
+    balance_shafts: ShaftUnbalances = ()
+    balance_shafts_mass_kg: ShaftsMass = None
     certificate: TradedCertificate = Field(description="the proof", examples=[{"relative_gap": 3e-7}])
 
 
@@ -134,6 +126,4 @@ class TradedFront(Displayable):
     points: tuple[TradedPoint, ...] = Field(
         description="of two responses in the order of the rising first; none if infeasible", examples=[[]]
     )
-    infeasibility: Infeasibility | None = Field(
-        None, description="which ceilings conflict; only if infeasible", examples=[None]
-    )
+    infeasibility: InfeasibilityProof = None
