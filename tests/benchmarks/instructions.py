@@ -161,7 +161,7 @@ def table(case: str, costs: dict[str, Cost]) -> Table:
     for cost in costs.values():
         for name, count in vars(cost).items():
             setattr(whole, name, getattr(whole, name) + count)
-    ordered = sorted(costs.items(), key=lambda entry: -entry[1].instructions)
+    ordered = sorted(costs.items(), key=lambda pair: -pair[1].instructions)
     large = [(library, cost) for library, cost in ordered if cost.instructions > 0.01 * total]
     for library, cost in [*large, ("all", whole)]:
         name = "compiled kernels" if library in ("", "???") else library

@@ -80,11 +80,11 @@ class Compiled:
         """Variables, multipliers and objectives of programs by their data (n, ...); so many are ``unsolved``."""
         count, (rows, columns) = len(values), self._shape
         assert values.shape == (count, self._nonzero)
-        x, z, value = np.empty((count, columns)), np.empty((count, rows)), np.empty(count)
-        every = [np.ascontiguousarray(np.broadcast_to(cost, (count, columns))), values, sides, x, z, value]
+        x, z, objective = np.empty((count, columns)), np.empty((count, rows)), np.empty(count)
+        every = [np.ascontiguousarray(np.broadcast_to(cost, (count, columns))), values, sides, x, z, objective]
         pointers: list[Any] = [values.ctypes.data_as(ctypes.POINTER(ctypes.c_double)) for values in every]
         self.unsolved = int(self._library.solve_all(count, ctypes.c_double(_TOLERANCE), *pointers))
-        return x, z, value
+        return x, z, objective
 
 
 class Generated:
@@ -111,9 +111,9 @@ class Generated:
         ArithmeticError
             if one of them is left unsolved.
         """
-        x, z, value = self._first.solve(self._costs[0], self._values[0], self._sides[0])
+        x, z, objective = self._first.solve(self._costs[0], self._values[0], self._sides[0])
         self._sides[1][:, self._webs] = [
-            target(value, program) for value, program in zip(value, self._programs, strict=True)
+            target(optimum, program) for optimum, program in zip(objective, self._programs, strict=True)
         ]
         x2, z2, _ = self._second.solve(self._costs[1], self._values[1], self._sides[1])
         if unsolved := self._first.unsolved + self._second.unsolved:

@@ -68,9 +68,9 @@ def vectors_of(dual: Real) -> Complex:
     return -(dual[:, 0] + 1j * dual[:, 1])
 
 
-def target(value: float, program: Program) -> float:
+def target(objective: float, program: Program) -> float:
     """Largest value of an optimum."""
-    return value + _USED * program.share
+    return objective + _USED * program.share
 
 
 class _Built(NamedTuple):
@@ -260,7 +260,7 @@ class Batch:
         smallest = self._stage(0)
         values = self._solvers[0].info.obj_val
         pairs = zip(values, self._programs, strict=True)
-        self._sides[1][:, self._webs] = [target(value, program) for value, program in pairs]
+        self._sides[1][:, self._webs] = [target(optimum, program) for optimum, program in pairs]
         lightest = self._stage(1)
         duals = [
             single_smallest.z[:, -3 * self._terms :].reshape(-1, self._terms, 3)[..., 1:]

@@ -106,7 +106,7 @@ def main() -> None:
         table.add_column(heading, justify="left" if heading == "way" else "right")
     for (way, workers), entries in taken.items():
         middle = statistics.median(entries)
-        gain = statistics.median(value / many for value, many in zip(taken[way, 1], entries, strict=True))
+        gain = statistics.median(single / many for single, many in zip(taken[way, 1], entries, strict=True))
         table.add_row(way, str(workers), f"{middle:.1f}", f"{request.total / middle:,.0f}", f"{gain:.2f}")
     Console(width=120).print(table)
 

@@ -34,10 +34,10 @@ def test_lighter_and_within_all_limits(seed: int, webs: int, parts: int, share: 
     heaviest = sets[indices[np.argmax(mass[indices])]]
     light = np.random.default_rng(seed).uniform(0.1, 1.0, webs) * most * problem.limits.radius + 0j
     sizes = LightSizes(problem, options, light, list(range(webs)))
-    for value in (None, heaviest, None):
-        array = sizes.below(value, level, Clock(_LONG))
+    for incumbent in (None, heaviest, None):
+        array = sizes.below(incumbent, level, Clock(_LONG))
         if array is None:
-            assert value is None
+            assert incumbent is None
             continue
         assert array.tolist() in sets[indices].tolist()
         weighs = float(np.sum(options.of(options.mass, array)))

@@ -71,7 +71,7 @@ def test_the_settings_are_ones_of_the_service(monkeypatch: pytest.MonkeyPatch) -
 
 def test_the_secret_holds_what_is_taken_from_it() -> None:
     held = ALL["Secret"]["stringData"]
-    taken = [entry["valueFrom"]["secretKeyRef"]["key"] for entry in CONTAINER["env"]]
+    taken = [variable["valueFrom"]["secretKeyRef"]["key"] for variable in CONTAINER["env"]]
     taken += [item["key"] for item in POD["volumes"][2]["secret"]["items"]]
     assert set(held) == set(taken)
     assert set(taken) - {"keys.jsonl"} <= settings_variables()

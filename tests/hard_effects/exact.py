@@ -290,7 +290,7 @@ def _with_friction(body: dict[str, Any], lines: list[Row]) -> list[Row]:
     if not data:
         return lines
     if data.get("mechanical_efficiency") is None:
-        force = [mp.mpf(value) for value in data.get("reciprocating_force_N") or [0.0] * len(lines)]
+        force = [mp.mpf(friction) for friction in data.get("reciprocating_force_N") or [0.0] * len(lines)]
     else:
         share = mp.mpf(data.get("reciprocating_share", 0.7))
         # two strokes a turn

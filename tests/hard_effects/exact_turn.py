@@ -96,11 +96,11 @@ class Machine:
         eps = mp.mpf(10) ** -40
         tried = list(edges)
         with mp.workdps(20):
-            value = [self.torque(edge) - self.mean for edge in edges]
+            torque = [self.torque(edge) - self.mean for edge in edges]
         for k in range(len(edges) - 1):
-            left = self.torque(edges[k] + eps) - self.mean if edges[k] in jumps else value[k]
+            left = self.torque(edges[k] + eps) - self.mean if edges[k] in jumps else torque[k]
             after = edges[k + 1]
-            right = self.torque(after - eps) - self.mean if after in jumps or k == len(edges) - 2 else value[k + 1]
+            right = self.torque(after - eps) - self.mean if after in jumps or k == len(edges) - 2 else torque[k + 1]
             if left * right < 0:
                 tried.append(self._crossing(edges[k] + eps, after - eps))
         energy = [self.running(theta) for theta in tried]

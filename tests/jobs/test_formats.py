@@ -114,9 +114,9 @@ def test_memory_stays_flat(name: str) -> None:
     def batches(count: int) -> Iterator[pa.RecordBatch]:
         for k in range(count):
             index = pa.array(range(1000 * k, 1000 * k + 1000), pa.int64())
-            value = index.cast(pa.float64())
+            peak = index.cast(pa.float64())
             texts = pa.array(["x"] * 1000)
-            yield pa.RecordBatch.from_arrays([index, value, texts, texts], schema=SCHEMA)
+            yield pa.RecordBatch.from_arrays([index, peak, texts, texts], schema=SCHEMA)
 
     def peak(count: int) -> int:
         arrow_before = pa.total_allocated_bytes()

@@ -156,9 +156,9 @@ def test_the_list(client: TestClient, sweep: str) -> None:
         page = client.get(following).json()
         listed += page["sweeps"]
         following = page["next"]
-    created = [entry["created_at"] for entry in listed]
+    created = [state["created_at"] for state in listed]
     assert created == sorted(created, reverse=True)
-    assert sweep in [entry["links"]["self"] for entry in listed]
+    assert sweep in [state["links"]["self"] for state in listed]
     assert client.get("/v1/sweeps?before=x").status_code == 404
     assert client.get("/v1/sweeps?limit=0").status_code == 422
 

@@ -56,8 +56,8 @@ def test_series_have_the_values_of_the_samples(style: str, exact: bool) -> None:
     expected, moving = _forces(plan, data, angle, exact, friction)
     series = RowSeries(turn.rows, angle[None], None, angle[None], 0)
     for reading in READINGS:
-        value, actual = forces(series, reading)[0, ..., 0], getattr(expected, reading)
-        assert value == pytest.approx(actual, rel=1e-9, abs=1e-11 * np.max(np.abs(actual))), reading
+        own, actual = forces(series, reading)[0, ..., 0], getattr(expected, reading)
+        assert own == pytest.approx(actual, rel=1e-9, abs=1e-11 * np.max(np.abs(actual))), reading
     _, loads = shaft_loads(expected.piston, moving, plan, angle)
     count = plan.reciprocating.mass.size
     actual_forces = forces(series, "on_shaft")[0, ..., 0] * plan.reciprocating.crank_direction[:, None]

@@ -319,7 +319,7 @@ def main() -> int:
     }
     if arguments.only is not None:
         presses = {
-            name: entry for name, entry in presses.items() if name == "nobody" or name.startswith(arguments.only)
+            name: press for name, press in presses.items() if name == "nobody" or name.startswith(arguments.only)
         }
     with service(fresh=True, log_level="warning", rate_limit="") as target:
         target.sweep = asyncio.run(start_sweep(target))  # type: ignore[attr-defined]

@@ -96,6 +96,6 @@ def web(low, high, angle_deg):
     """An oblong plate from the axis to the pin."""
     across = Part.makeBox(RADIUS, 2 * WEB_END, high - low, App.Vector(0, -WEB_END, low))
     ends = [Part.makeCylinder(WEB_END, high - low, App.Vector(x, 0, low)) for x in (0.0, RADIUS)]
-    value = ends[0].multiFuse([ends[1], across]).removeSplitter()
-    value.rotate(App.Vector(), App.Vector(0, 0, 1), angle_deg)
-    return value
+    solid = ends[0].multiFuse([ends[1], across]).removeSplitter()
+    solid.rotate(App.Vector(), App.Vector(0, 0, 1), angle_deg)
+    return solid

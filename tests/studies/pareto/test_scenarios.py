@@ -98,8 +98,8 @@ def test_no_best_worst_case_is_below_the_front(seed: int, first: int, exponent: 
     best = answered(body, objective=goal, scenarios=scenarios)
     assert best.certificate is not None
     for force, moment in map(traded, pareto.points):
-        value = max(goal["force_weight"] * force, goal["moment_weight"] * moment)
-        assert value >= best.certificate.lower_bound * (1 - 1e-12)
+        objective = max(goal["force_weight"] * force, goal["moment_weight"] * moment)
+        assert objective >= best.certificate.lower_bound * (1 - 1e-12)
     # of unit weights the worst case of that answer is what the front trades
     alike = [{**case, "weight": 1.0} for case in scenarios]
     plain, reply = front(body, points=4, scenarios=alike), answered(body, objective=goal, scenarios=alike)
@@ -158,12 +158,12 @@ def test_a_point_of_named_responses_is_the_best_worst_case_of_its_mass(
     alone = {"force_weight": 0.0, "moment_weight": 0.0, "bearing_weight": 1.0} if "bearings" in responses else {}
     (front,) = ask(body, points=3, scenarios=cases, tolerances=tolerances, responses=responses).trades
     assert front.status == "optimal"
-    value, mass = front.points[1].values
+    objective, mass = front.points[1].values
     best = answered({**body, "max_total_mass_kg": mass}, objective=alone, scenarios=cases, tolerances=tolerances)
     assert best.certificate is not None
-    assert value == pytest.approx(best.certificate.objective, abs=3e-6 * front.responses[0].yardstick)
+    assert objective == pytest.approx(best.certificate.objective, abs=3e-6 * front.responses[0].yardstick)
     assert front.points[1].nominal_values is not None
-    assert front.points[1].nominal_values[0] < value
+    assert front.points[1].nominal_values[0] < objective
 
 
 @pytest.mark.parametrize("least", ["objective", "mass"])

@@ -118,8 +118,8 @@ def test_no_best_worst_case_is_below_the_front(seed: int, tolerances: dict[str, 
     assert best.certificate is not None
     assert not below_a_corner(best.worst_case.force_peak_N, best.worst_case.moment_peak_Nm, front, 1e-12)
     for force, moment in map(traded, front.points):
-        value = max(goal["force_weight"] * force, goal["moment_weight"] * moment)
-        assert value >= best.certificate.lower_bound * (1 - 1e-12)
+        objective = max(goal["force_weight"] * force, goal["moment_weight"] * moment)
+        assert objective >= best.certificate.lower_bound * (1 - 1e-12)
 
 
 @given(SEEDS, st.sampled_from(TOLERANCES))
@@ -186,12 +186,12 @@ def test_a_point_of_named_responses_is_the_best_worst_case_of_its_mass(
     answer = ask(body, points=3, tolerances=tolerances, responses=responses)
     (front,) = answer.trades
     assert front.status == "optimal"
-    value, mass = front.points[1].values
+    objective, mass = front.points[1].values
     best = answered({**body, "max_total_mass_kg": mass}, objective=alone, tolerances=tolerances)
     assert best.certificate is not None
-    assert value == pytest.approx(best.certificate.objective, abs=3e-6 * front.responses[0].yardstick)
+    assert objective == pytest.approx(best.certificate.objective, abs=3e-6 * front.responses[0].yardstick)
     assert front.points[1].nominal_values is not None
-    assert front.points[1].nominal_values[0] < value
+    assert front.points[1].nominal_values[0] < objective
 
 
 @pytest.mark.parametrize(

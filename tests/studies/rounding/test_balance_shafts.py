@@ -130,10 +130,10 @@ def test_the_answer_is_the_best_of_all_roundings(rotation: str, goal: Body, step
     assert value_of(request, counterweights) == pytest.approx(answer.certificate.objective, rel=1e-9)
     for weight in fitted(answer):
         crank = 90.0 if weight.web.startswith("1") else 0.0
-        for value, step in ((weight.mass_kg, steps[0]), (weight.angle_deg - crank, steps[1])):
+        for quantity, step in ((weight.mass_kg, steps[0]), (weight.angle_deg - crank, steps[1])):
             # to the last digit: 64.1, not what is left of it where its mirror image is mirrored back
-            assert abs(value / step - round(value / step)) <= 1e-12 * max(1.0, value / step)
-            assert value == float(f"{value:.12g}")
+            assert abs(quantity / step - round(quantity / step)) <= 1e-12 * max(1.0, quantity / step)
+            assert quantity == float(f"{quantity:.12g}")
     assert answer.rounding.optimum.objective <= answer.certificate.objective
 
 
