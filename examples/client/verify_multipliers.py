@@ -227,8 +227,8 @@ class Program:
     ) -> Tuple[Dict[Group, Number], Number]:
         """What the rows of every group are multiplied by, and what the levels of goals are charged with.
 
-        The largest of several cases is no less than their mean with prices that sum to 1, and a goal that is kept below
-        a level takes the price times the level off. A price is the largest sum of the groups of a case.
+        The largest of several cases is no less than their mean with prices that sum to 1. A goal that is kept below a
+        level takes the price times the level off. A price is the largest sum of the groups of a case.
         """
         prices: Dict[Tuple[Optional[str], int], Number] = {}
         for (case, goal, _), value in sums.items():

@@ -1,7 +1,7 @@
 """Anti-rotation pins of a scroll: their loads over the turn, dead points and exact peaks.
 
-A pin at z = R e^{j psi} of the scroll pushes along the eccentric e^{j theta} with Q; its moment is Q a with the
-lever a = R sin(theta - psi). For evenly spaced pins (Liu, Zhao and Li, equations (1) and (3))
+A pin at z = R e^{j psi} of the scroll pushes along the eccentric e^{j theta} with Q. Its moment is Q a with the lever a
+= R sin(theta - psi). For evenly spaced pins (Liu, Zhao and Li, equations (1) and (3))
 
     Q_i = 2 T_R / (n R) sin(theta - 2 pi (i - 1) / n).
 

@@ -109,7 +109,7 @@ class FairQueue:
         self._places = places
         self._clock = clock
         self._accounts, self._loads = Accounts(clock), Loads(clock)
-        # share of the last seconds in which owners had a turn or waited for several, and who does now: one that waits
+        # share of the last seconds in which owners had a turn or waited for several, and who does now. One that waits
         # once is no pressure, else it would wait ever longer
         self._pressure = Loads(clock)
         self._pressing: set[str] = set()

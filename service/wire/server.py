@@ -27,7 +27,7 @@ _OTHER_FILES = 128
 _BACKLOG = 2048
 #: a thread that computes gives way to the event loop after so long; five times as long by default
 _SWITCH_S = 0.001
-#: new objects before a collection of the youngest garbage, which are fewer than of a command that computes once;
+#: new objects before a collection of the youngest garbage, which are fewer than of a command that computes once. Then
 #: collections of the youngest garbage before one of what is older, and of those before a full one. For each everything
 #: stops: 5 ms with a thousand connections after ten of the youngest, as by default, and 0.1 s for a full one. A request
 #: leaves nothing for it

@@ -1,7 +1,7 @@
 """Counterweights of lattices and catalogues to a hundredth, a thousandth and a ten thousandth, beside SCIP and HiGHS.
 
 ``python -m tests.benchmarks.lattices [--limit 60]`` prints seconds of the processor and the gap at their end, of each
-solver and gap. SCIP has cones. HiGHS has none: lengths are those of a polygon of 128 sides about the circle, which is
+solver and gap. SCIP has cones. HiGHS has none: lengths are those of a polygon of 128 sides about the circle. It is
 short by 3e-4 at most, so that its objective is a little less than that of its set. Gaps are shares of the objective
 without counterweights.
 """

@@ -3,8 +3,8 @@ in batches, C that is generated for the program, and ours.
 
 ``python -m tests.benchmarks.sweep``; part of `make bench`. The methods take turns, so that a slow moment of the
 machine meets them all, and what counts is CPU time, as others may use it too. The others get the formulated program of
-each design as matrices for nothing, prove nothing and write nothing; ours is timed from the request to the bytes of
-the Parquet file, certificates included.
+each design as matrices for nothing, prove nothing and write nothing. Ours is timed from the request to the bytes of the
+Parquet file, certificates included.
 """
 
 from tests.benchmarks.single_core import pin, single_thread

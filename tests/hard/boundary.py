@@ -1,8 +1,8 @@
 """``python -m tests.hard.boundary --count N``: ceilings on, and a hair to either side of, what can just be reached.
 
-Every machine is asked several times, its ceilings put at a place times 1 + d: at the smallest peaks that can be
-reached, at those without counterweights, at those of the optimum without ceilings, at the floor. Analytic: the
-smallest objective does not grow, and no ceiling gets out of reach, as the ceilings are raised.
+Every machine is asked several times, its ceilings put at a place times 1 + d. Places are the smallest peaks that can be
+reached, those without counterweights, those of the optimum without ceilings, and the floor. Analytic: the smallest
+objective does not grow, and no ceiling gets out of reach, as the ceilings are raised.
 """
 
 import argparse

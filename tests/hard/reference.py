@@ -1,6 +1,6 @@
 """The optimum of one request, proven to 15 digits and more: what the service is compared with.
 
-Smallest objective, least mass among the optima, smallest excess over the ceilings: each by the interior point
+Smallest objective, least mass among the optima, smallest excess over the ceilings. Each is found by the interior point
 method of :mod:`tests.hard.interior`, each with its own lower bound from the multipliers, in the same numbers.
 """
 

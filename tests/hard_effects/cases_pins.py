@@ -1,8 +1,8 @@
 """Loads of the anti-rotation pins of whole answers. Every pin is measured against its own largest load over the turn.
 
-A pattern near a line, or of pins close together, multiplies the last digit of the pins' angles and radii: where the
-places leave a line by a share w of their span, loads change by 1/w units for a unit in the last place of the data.
-The demand grows with that condition, and with nothing else.
+A pattern near a line, or of pins close together, multiplies the last digit of the pins' angles and radii. Where the
+places leave a line by a share w of their span, loads change by 1/w units for a unit in the last place of the data. The
+demand grows with that condition, and with nothing else.
 """
 
 from collections.abc import Iterator

@@ -106,8 +106,8 @@ def _with_sectors(rng: np.random.Generator) -> Body:
 
 
 def test_sectors_leave_no_dust() -> None:
-    """Regression: eight of 150 machines had counterweights of 1e-9 to 1e-4 of their largest, as the least mass had
-    used all that optima may differ by; what is left beside a sector's edge has room now."""
+    """Regression: eight of 150 machines had counterweights of 1e-9 to 1e-4 of their largest, as the least mass had used
+    all that optima may differ by. What is left beside a sector's edge has room now."""
     rng = np.random.default_rng(2)
     dusty = 0
     for _ in range(150):

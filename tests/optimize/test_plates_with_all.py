@@ -1,5 +1,5 @@
 """Counterweights cut from plates with goals over a revolution, in their order, in scenarios, with tolerances, under
-ceilings and a budget at once: against every opening of two plates, by mechanics of their own.
+ceilings and a budget at once. They are held against every opening of two plates, by mechanics of their own.
 
 Independent: one row on two webs, whose counterweights stand against the crank. Force, moment and loads come from the
 exact stroke, masses and unbalances from the integrals over a sector and a segment.

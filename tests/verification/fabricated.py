@@ -1,7 +1,7 @@
 """``python -m tests.verification.fabricated``: answers that somebody made up, whose figures agree with one another.
 
-Doing nothing is called optimal, ceilings that can be kept are called out of reach, a counterweight is there twice, a
-proof is left out, the answer is that to another request. Prints kind | fabricated | broken | refused | not covered |
+Doing nothing is called optimal, ceilings that can be kept are called out of reach, a counterweight is there twice. A
+proof is left out, or the answer is that to another request. Prints kind | fabricated | broken | refused | not covered |
 held. Exit code 1 where one of them is held.
 """
 

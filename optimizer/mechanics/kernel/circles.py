@@ -21,7 +21,7 @@ _ROUNDING = 256 * np.finfo(float).eps
 #: orders, as numpy's integers like all else that is handed on
 _VALUE, _CUBIC = np.int64(0), np.int64(3)
 #: numbers of a circle: its radius, what no point of the curve is farther away than from the centre, how many points
-#: hold it, how often its points were searched, and the angles and the weights of those that hold it
+#: hold it. Then how often its points were searched, and the angles and the weights of those that hold it
 RADIUS, UPPER, COUNT, ROUNDS, ANGLES, WEIGHTS, _NUMBERS = 0, 1, 2, 3, 4, 7, 10
 
 
@@ -32,8 +32,8 @@ def circles(cubics, members, rows, sums, middle, motion):  # type: ignore[no-unt
 
     Parameters
     ----------
-    members : which curves, and of each group of them only the largest radius counts; how much of a radius may be left
-        open (1,), and as rounding the size of what is added up in each.
+    members : which curves, and of each group of them only the largest radius counts. Its share is how much of a radius
+        may be left open (1,), its rounding the size of what is added up in each.
     """
     number, group, tolerance, size = members.curve, members.group, members.share[0], members.rounding
     count = number.size
