@@ -253,10 +253,13 @@ def test_bearings_are_chosen_by_name(portal: Portal) -> None:
 
 
 def test_an_engine_is_drawn_over_both_turns(portal: Portal) -> None:
-    portal.open("inline-four-engine", ("torque",))
+    portal.open("inline-four-engine", ("torque", "rod-loads"))
     marks = portal.panel("torque").locator(".xtick text").all_text_contents()
     # analytic: six equal parts of two turns
     assert [mark.strip() for mark in marks] == ["0", "120", "240", "360", "480", "600", "720"]
+    # analytic: inertia pulls most at the outer dead centre, whatever rounding leaves of 0
+    loads = cells(portal.panel("rod-loads").locator("table"))
+    assert [line[3] for line in loads if line[1] == "no load"] == ["0", "180", "180", "0"]
 
 
 def test_any_two_responses_are_traded(portal: Portal, url: str) -> None:
