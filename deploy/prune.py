@@ -1,5 +1,5 @@
-"""Take out of an environment what unused.txt names, and out of the packages' own lists of files as well; and out of its
-shared libraries what only debuggers and linkers read.
+"""Take out of an environment what unused.txt names, and out of the packages' own lists of files as well. Take out of
+its shared libraries what only debuggers and linkers read.
 
     /opt/counterweight/bin/python deploy/prune.py deploy/unused.txt
 

@@ -16,7 +16,7 @@ from schemas.sweep.axes import MAX_DESIGNS
 
 _PREFIX = "COUNTERWEIGHT_"
 #: variables of clients, of the workbench and of the deployment files, which the service does not read
-_OF_OTHERS = {f"{_PREFIX}{name}" for name in (
+_CLIENT_VARIABLES = {f"{_PREFIX}{name}" for name in (
     "CPUS", "DASK_WORKERS", "FOLDER", "FORCE", "IMAGE", "KEY", "MACHINE", "MEMORY", "PUBLISH", "SHAFT", "URL",
 )}  # fmt: skip
 
@@ -235,7 +235,7 @@ def unknown_variables(environment: Mapping[str, str]) -> Iterator[str]:
     """A sentence for every variable with our prefix that is no setting: a misspelt one would be without effect."""
     settings = {variable(field) for field in Settings.model_fields}
     for name in sorted(environment):
-        if name.upper().startswith(_PREFIX) and name.upper() not in settings | _OF_OTHERS:
+        if name.upper().startswith(_PREFIX) and name.upper() not in settings | _CLIENT_VARIABLES:
             near = difflib.get_close_matches(name.upper(), settings, n=1, cutoff=0.0)[0]
             yield f"{name}: there is no such setting; the nearest name is {near}"
 

@@ -173,8 +173,8 @@ class Run:
         except (EOFError, ConnectionResetError):
             self._bury(worker)
             return
-        for value in warned:
-            self._config.hook.pytest_warning_recorded.call_historic(kwargs=value)
+        for warning in warned:
+            self._config.hook.pytest_warning_recorded.call_historic(kwargs=warning)
         values = [self._config.hook.pytest_report_from_serializable(config=self._config, data=data) for data in reports]
         self._report(worker.sent.popleft(), values)
         self._send(worker)
@@ -270,6 +270,6 @@ def _move(config: pytest.Config, number: int) -> None:
 
 
 def _capture(config: pytest.Config) -> CaptureManager:
-    value = config.pluginmanager.getplugin("capturemanager")
-    assert isinstance(value, CaptureManager)
-    return value
+    capture = config.pluginmanager.getplugin("capturemanager")
+    assert isinstance(capture, CaptureManager)
+    return capture

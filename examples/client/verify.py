@@ -4,8 +4,8 @@
 
 Answers of optimize, pareto and pin loads, and rows of sweeps as a JSON list or as NDJSON. The standard library, Python
 3.8 or newer; nothing of the service is imported. The other verify_*.py have to lie beside this file. Which of them says
-what, by which formulas and to which tolerance is in docs/verify.md. Exit code 0: every claim holds, 1: something is
-broken, 2: the files cannot be read, 3: nothing is broken, but there are claims that are not covered; they are named.
+what, by which formulas and to which tolerance is in docs/verify.md. Exit code 0: every claim holds; 1: something is
+broken; 2: the files cannot be read; 3: nothing is broken, but claims are not covered. These are named.
 """
 
 from __future__ import annotations
@@ -15,12 +15,13 @@ from math import inf
 from typing import Any, Callable, Dict, Iterator
 
 from verify_claims import CODES, Claim, covered, judged, main
+from verify_front import front
 from verify_leaves import leaves
-from verify_many import front, sweep
 from verify_match import matching
 from verify_numbers import Place, Unreadable, read
 from verify_pin_loads import pin_loads
 from verify_single import single
+from verify_sweep import sweep
 
 __all__ = ["CODES", "PLACES", "Unreadable", "main", "read", "verify"]
 

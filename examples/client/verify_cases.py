@@ -43,7 +43,7 @@ def scenarios(request: Place) -> List[Place]:
 
 
 def without_cases(request: Place) -> Place:
-    """A request about the machine as it is, nothing off."""
+    """A request about the unchanged machine, nothing off."""
     return Place({**request.value, **dict.fromkeys(CASES), "tolerances": None}, *request.path)
 
 
@@ -102,7 +102,7 @@ class Case(NamedTuple):
 
 
 def cases(request: Place, machine: Machine, plane: Place) -> Iterator[Case]:
-    """One of every scenario, or the machine as it is."""
+    """One of every scenario, or the unchanged machine."""
     places = scenarios(request)
     if not places:
         yield Case(request, machine, ONE, None)
@@ -112,7 +112,7 @@ def cases(request: Place, machine: Machine, plane: Place) -> Iterator[Case]:
             path = (change / "path").text().split("/")[1:]
             of_shafts = path[1:2] == ["balance_shafts"] and path[-1:][0] not in ("x_m", "y_m")
             if of_shafts or path[:1] != ["machine"]:
-                # what is chosen for a shaft is told by the machine as it is
+                # what is chosen for a shaft is told by the unchanged machine
                 raise NotCovered(change / "path")
             body = with_value(body, path, (change / "value").value, request)
             has_shift |= path[-1] in PLANES

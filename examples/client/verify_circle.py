@@ -1,6 +1,6 @@
 """The smallest circle around a curve: what its length comes to at least, wherever counterweights put its middle.
 
-Two or three points of the curve are no longer than the half of their distance, or than the radius around them: any
+Two or three points of the curve are no longer than the half of their distance, or than the radius around them. Any
 middle is as far from one of them (Jung's theorem; the dual of the smallest enclosing circle). From those of two points
 the farthest point of the curve is added until none is farther.
 """

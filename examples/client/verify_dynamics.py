@@ -13,7 +13,7 @@ from verify_numbers import ONE, NotCovered, Place
 from verify_pistons import Instant, Piston, Pistons
 from verify_pressed import ALL, Acting, PressureCurve
 
-TURNED = 1e-9  # degrees by which a crank angle may be off
+SLACK_DEG = 1e-9  # degrees by which a crank angle may be off
 OPENS = 1e-7  # degrees by which an angle at which a valve opens may be off
 RUBBED = 1e-9  # of the friction: by which it may be off
 WORK = 1e-9  # of the largest force over the stroke: by which a work may be off
@@ -77,7 +77,9 @@ def kinematics(request: Place, pistons: Pistons, place: Place) -> Claims:
         # a whole revolution from its own angle, each may be printed as 0 or as 360
         own = list(entry / "crank_angle_deg")
         aside = [(angle.double() - degrees(instant.piston.own) + 180) % 360 - 180 for angle, instant in zip(own, there)]
-        yield from series("kinematics", entry / "crank_angle_deg", [a.double() - b for a, b in zip(own, aside)], TURNED)
+        yield from series(
+            "kinematics", entry / "crank_angle_deg", [a.double() - b for a, b in zip(own, aside)], SLACK_DEG
+        )
         yield from (("kinematics", angle, ONE if 0 <= angle.double() <= 360 else -ONE, ONE) for angle in own)
         for name, factor, reads in (
             ("displacement_m", row.radius, lambda instant: instant.piston.travel),

@@ -21,7 +21,7 @@ from verify_pressed import PressureCurve
 #: planes of the shaft times harmonics that are looked at
 MOST = 3_000
 #: planes of the shaft times rows likewise, where gas or friction acts
-PRESSED = 200
+MOST_WITH_GAS = 200
 
 Periodic = Union[Curve, PressureCurve]
 
@@ -90,7 +90,7 @@ class Loads:
             )
             return around.plus(-around.mean)
         if pistons is not None and not on_frame:
-            if response.startswith("bending") and len(self.planes) * len(pistons.rows) > PRESSED:
+            if response.startswith("bending") and len(self.planes) * len(pistons.rows) > MOST_WITH_GAS:
                 raise NotCovered(self.turn.place)
             weights = [(k, self.factor(response, row.position) * row.axis) for k, row in enumerate(pistons.rows)]
             return PressureCurve(pistons, "shaft", weights, {0: self.vector(response, self.turn.turning)})

@@ -17,7 +17,8 @@ from verify_curves import root
 from verify_cuts import Group, Part, Term
 from verify_machine import ON_FRAME, Machine, Web, over
 from verify_numbers import ONE, ZERO, J, NotCovered, Number, Place, largest, total
-from verify_program import CEILINGS, of_plate, support, weighed, worth_of_budget
+from verify_program import CEILINGS, weighed
+from verify_worth import of_plate, support, worth_of_budget
 
 #: components on the frame, of which the real part alone counts
 ALONG = [name for name in CEILINGS if ":" in name]
@@ -227,8 +228,8 @@ class Program:
     ) -> Tuple[Dict[Group, Number], Number]:
         """What the rows of every group are multiplied by, and what the levels of goals are charged with.
 
-        The largest of several cases is no less than their mean with prices that sum to 1, and a goal that is kept below
-        a level takes the price times the level off. A price is the largest sum of the groups of a case.
+        The largest of several cases is no less than their mean with prices that sum to 1. A goal that is kept below a
+        level takes the price times the level off. A price is the largest sum of the groups of a case.
         """
         prices: Dict[Tuple[Optional[str], int], Number] = {}
         for (case, goal, _), value in sums.items():

@@ -1,7 +1,7 @@
-"""What the worst case costs: the best of the machine as it is given, nothing off.
+"""What the worst case costs: the best of the unchanged machine, nothing off.
 
 The counterweights of that optimum are in the answer, like the multipliers that prove its bound. Its own figures are
-evaluated from them, on the machine as it is given and in every case.
+evaluated from them, on the unchanged machine and in every case.
 """
 
 from __future__ import annotations
@@ -30,7 +30,7 @@ def nominal_part(request: Place, machine: Machine, parts: Sequence[Part]) -> Par
 
 
 def nominal_optimum(request: Place, machine: Machine, parts: Sequence[Part], off: Scatter, answer: Place) -> Claims:
-    """Every figure of the best of the machine as it is given, but what multipliers prove."""
+    """Every figure of the best of the unchanged machine, but what multipliers prove."""
     place = answer / "price_of_robustness"
     best, worst = place / "nominal_optimum", place / "nominal_optimum_worst_case"
     if not best:

@@ -106,7 +106,7 @@ def _ring(claim: str, design: Place, orbit: float, omega: float, turn: Turn, pla
 
 
 def _level(torque: Torque, axis: float, steep: float) -> Iterator[float]:
-    """Angles where a key may carry most [degrees]: entries of the torque, and where its slope is that of the inertia."""
+    """Angles where a key may carry most [degrees]: entries of the torque, and where it rises as the inertia does."""
     entries = torque.angles
     yield from entries
     for start, end in zip(entries, [*entries[1:], entries[0] + 360]):

@@ -21,7 +21,7 @@ EXACT = 1e-12
 #: entries of a torque times pins, beyond which peaks take too long
 MANY = 50_000
 #: degrees of a direction, of pins that are not all but where the scroll turns
-TURNED = 1e-9
+SLACK_DEG = 1e-9
 FIELDS = {
     "pin_count", "pin_circle_radius_m", "pins", "rotation_torque_Nm", "tangential_gas_force_N", "orbit_radius_m",
     "drive_bearing", "comparison", "angles",
@@ -207,14 +207,16 @@ def _halves(turn: Turn, entry: Place, k: int) -> Claims:
         value = (entry / field).double()
         reach = pins.shapes[k].factor / pins.shapes[k].most
         off = abs((value - angle + 180) % 360 - 180) * reach
-        yield CLAIM, entry / field, real(TURNED - off) if 0 <= value < 360 else -ONE, real(360.0)
+        yield CLAIM, entry / field, real(SLACK_DEG - off) if 0 <= value < 360 else -ONE, real(360.0)
 
 
 def _dead(pins: Pins, place: Place) -> Claims:
     points = [point.double() for point in place]
     yield CLAIM, place, ONE if len(points) == len(pins.dead) else -ONE, ONE
-    opposite = all(0 <= point < 360 for point in points) and (not points or abs(points[-1] - points[0] - 180) < TURNED)
+    opposite = all(0 <= point < 360 for point in points) and (
+        not points or abs(points[-1] - points[0] - 180) < SLACK_DEG
+    )
     for point, value, dead in zip(place, points, pins.dead):
         # pins that are all but on a line have one of some width
         off = abs((value - dead + 90) % 180 - 90)
-        yield CLAIM, point, real(TURNED + degrees(LINE) * LINE - off) if opposite else -ONE, real(360.0)
+        yield CLAIM, point, real(SLACK_DEG + degrees(LINE) * LINE - off) if opposite else -ONE, real(360.0)

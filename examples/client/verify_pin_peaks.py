@@ -1,7 +1,7 @@
 """The largest load of a pin over a revolution, enclosed for every angle.
 
 Between two angles h apart a load T c sin(t - g) / D with a linear torque T is above its ends by at most h^2/8 times
-its largest second derivative. That is bounded by the values of D, D' and D'' there; the intervals that may hold more
+its largest second derivative. That is bounded by the values of D, D' and D'' there. The intervals that may hold more
 are halved until none can exceed the largest value by more than 10^-10 of it.
 """
 

@@ -27,7 +27,7 @@ _ALIKE = 1e3
 #: of clearances and errors
 _PLAY = 1e-10
 #: pins of one machine, evenly spaced ones and others
-_MOST, _MOST_NAMED = 1000, 200
+_MOST, _MOST_UNEVEN = 1000, 200
 
 
 class Torque:
@@ -92,7 +92,7 @@ class Pins:
         stiffness = (bearing / "stiffness_N_per_m").double(0.0)
         self.drive = {"free": 0.0, "rigid": inf, "elastic": stiffness}[kind]
         if place / "pins":
-            if len(entries) > _MOST_NAMED:
+            if len(entries) > _MOST_UNEVEN:
                 raise NotCovered(place / "pins")
             self.phases = [(pin / "angle_deg").double() % 360.0 for pin in entries]
             self.radii = [(pin / "radius_m").double(least=1e-9) for pin in entries]

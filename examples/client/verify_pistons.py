@@ -1,7 +1,7 @@
 """What acts on the pistons of a machine at a shaft angle: gas, friction and inertia, in doubles.
 
 Friction of a row is as large both ways and against the motion. From the efficiency e it is a share of the losses
-N (1/e - 1) of the indicated power N, or N (1 - e) of gas that gives power; the rest turns with the shaft. A pressure
+N (1/e - 1) of the indicated power N, or N (1 - e) of gas that gives power. The rest turns with the shaft. A pressure
 jumps nowhere, friction at the dead centres alone: ``within`` says on which side of one an angle is.
 """
 

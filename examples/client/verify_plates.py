@@ -3,9 +3,8 @@
 With the half-angle a at the outer radius R, h = R cos a and what the hub of radius r takes away at the same h, an
 annular sector has m = q a (R^2 - r^2), U = 2/3 q (R^3 - r^3) sin a, J = q a (R^4 - r^4) / 2. What lies beyond a chord
 has m = q R^2 (a - sin a cos a), U = 2/3 q R^3 sin^3 a, J = q R^4 ((a - sin a cos a) / 2 + sin^3 a cos a / 3). Here q
-is thickness times density. The mass is a convex function of the unbalance, so what an unbalance is worth,
-price * U - cost * m(U), is largest where one more kilogram metre costs what it is worth, dm/dU = price / cost. In
-doubles, to 1e-9.
+is thickness times density. The mass is a convex function of the unbalance. So what an unbalance is worth, price * U -
+cost * m(U), is largest where one more kilogram metre costs what it is worth, dm/dU = price / cost. In doubles, to 1e-9.
 """
 
 from __future__ import annotations

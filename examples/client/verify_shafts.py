@@ -1,8 +1,8 @@
 """Balance shafts in a program: what an unbalance v of a shaft that turns n times adds to a response.
 
 It turns as n^2 v e^{jnt}, so that the crankshaft sees order n - 1. In the first order a shaft at -1 adds to what turns
-backwards; the lengths there hold the conjugate of that, which is affine in conj(v): the mirror image of v at the x
-axis stands for it. About the crankshaft it has the moment Im(conj(p) n^2 v e^{jnt}), p its place x + jy.
+backwards; the lengths there hold the conjugate of that, which is affine in conj(v). The mirror image of v at the x axis
+stands for it. About the crankshaft it has the moment Im(conj(p) n^2 v e^{jnt}), p its place x + jy.
 """
 
 from __future__ import annotations

@@ -1,6 +1,6 @@
 """Goals over the whole turn: what their cuts prove.
 
-Of bearing loads, bending moments, and force and moment of all orders, the multipliers prove a bound by cuts: each is
+Of bearing loads, bending moments, and force and moment of all orders, the multipliers prove a bound by cuts. Each is
 the response at one shaft angle, which is evaluated here from rods and masses. Gas and friction where loads count, roll
 and balance shafts are not covered.
 """
@@ -98,7 +98,7 @@ def _earlier(program: Program, proof: Place, implied: Place) -> Claims:
 
 
 def _nominal(request: Place, machine: Machine, answer: Place) -> Claims:
-    """The bound of the machine as it is given, nothing off, by multipliers of its own."""
+    """The bound of the unchanged machine, nothing off, by multipliers of its own."""
     price = answer / "price_of_robustness"
     if not price / "nominal_multipliers":
         return

@@ -5,10 +5,10 @@
 needs OpenMDAO, a service at 127.0.0.1:8000 and `counterweight.py` (examples/client) beside this file.
 
 The certificate of an optimum holds its gradients already. The shadow price of a limit is what the peak falls by for
-each unit that the limit is loosened; the multiplier of a response is what the peak rises by for each unit of that
-response, as it is weighed, and an unbalance of the shaft itself moves the responses in proportion. Neither needs
-another optimum. Where a price has two sides (a kink, where a limit just begins to bind), the
-gradient is that of one of them, and an outer optimiser may stall there.
+each unit that the limit is loosened. The multiplier of a response is what the peak rises by for each unit of that
+response, as it is weighed. An unbalance of the shaft itself moves the responses in proportion. Neither needs another
+optimum. Where a price has two sides (a kink, where a limit just begins to bind), the gradient is that of one of them,
+and an outer optimiser may stall there.
 """
 
 from __future__ import annotations

@@ -22,7 +22,7 @@ from optimizer.program.statement import Statement
 from optimizer.program.verdict import MASS_GAP
 
 #: openings that are tried at once for plates that are to be alike, and how often closer ones
-_TRIED, _ROUNDS = 6, 3
+_OPENINGS, _ROUNDS = 6, 3
 #: shares of what is certified that may be used up: of the mass, and of the objective by the choice of the others
 _OF_MASS, _OF_OBJECTIVE = 0.9, 0.5
 
@@ -151,14 +151,14 @@ def _opened(
     ----------
     is_fixed : (K,) bool, webs that stay as they are or are opened so; the others are free.
     """
-    many, places = whole.subset(np.zeros(_TRIED, int)), np.concatenate([cluster.places for cluster in clusters])
+    many, places = whole.subset(np.zeros(_OPENINGS, int)), np.concatenate([cluster.places for cluster in clusters])
     webs, size = plates.webs[places], [cluster.places.size for cluster in clusters]
     low, high = (np.repeat([getattr(cluster, name) for cluster in clusters], size) for name in ("low", "high"))
     full, u = any(cluster.full for cluster in clusters), before.unbalance
     for _ in range(_ROUNDS):
-        openings = np.repeat(before.angle[None], _TRIED, axis=0)
-        openings[:, places] = np.linspace(low, high, _TRIED)
-        trials = np.repeat(u[None], _TRIED, axis=0)
+        openings = np.repeat(before.angle[None], _OPENINGS, axis=0)
+        openings[:, places] = np.linspace(low, high, _OPENINGS)
+        trials = np.repeat(u[None], _OPENINGS, axis=0)
         trials[:, webs] = plates.unbalance(openings)[:, places] * (u[webs] / np.abs(u[webs]))
         share = _OF_OBJECTIVE * (admitted.objective - admitted.bound)
         trials = _completion(many, plates, nodes, is_fixed, trials, share, admitted.least_mass)

@@ -253,8 +253,8 @@ def _kinks(spans: _Spans) -> Real:
     """Slopes 6 E I phi at both ends of a simple span for unit loads at distances a from the other end:
     (2, ..., B-1, L), m^2.
 
-    a (l^2 - a^2) / l inside the span. A load overhanging the other end (a < 0) bends the span by its moment a there
-    and by nothing else, and the slope is a l: the same expression without the a in the bracket.
+    a (l^2 - a^2) / l inside the span. A load overhanging the other end (a < 0) bends the span by its moment a there and
+    by nothing else. The slope is a l: the same expression without the a in the bracket.
     """
     inside = np.maximum(spans.distance, 0.0)
     return spans.carries * spans.distance * (spans.length - inside) * (spans.length + inside) / spans.length

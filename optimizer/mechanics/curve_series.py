@@ -50,8 +50,8 @@ class CurveSeries:
         return self._about(*self._places(curve, piece), centre, 3) * half[:, None] ** _POWERS
 
     def over(self, points: RowSeries | None, bounds: RowSeries | None, half: Real) -> tuple[Complex, Real, Real]:
-        """Coefficients (J, P, order + 1) over the angles of series, in units of half widths (N, P); by bounds what they
-        leave out (J, P), and of both the size (J,) of what is added up. Empty for a series that is None."""
+        """Coefficients (J, P, order + 1) over the angles of series, in units of half widths (N, P). Bounds have what
+        they leave out (J, P). Both have the size (J,) of what is added up. Empty for a series that is None."""
         entry = turn_kernel()
         series, nothing = points or bounds, repeat((entry.NOTHING, None))
         assert series is not None  # at least one is there

@@ -2,8 +2,8 @@
 
 A rigid frame feels the forces in planes z by their sum and by their couple about one plane. Any response that is linear
 in them is R = a F + b M, so that a unit of force in plane z adds a + b (z - z_ref). A couple about another plane p has
-a = z_ref - p and b = 1; what a support at z_1 carries beside one at z_2 has a = (z_2 - z_ref)/(z_2 - z_1) and
-b = -1/(z_2 - z_1). Source: statics of a rigid body.
+a = z_ref - p and b = 1. What a support at z_1 carries beside one at z_2 has a = (z_2 - z_ref)/(z_2 - z_1) and b =
+-1/(z_2 - z_1). Source: statics of a rigid body.
 """
 
 from collections.abc import Mapping

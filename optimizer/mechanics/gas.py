@@ -1,10 +1,9 @@
 """Gas forces: a four-process cycle in every chamber, with its switching angles and its work; or a table of pressures.
 
 Chamber axis: head and crank side of the first cylinder of the row, then of the next on the same rod (tandem or
-stepped), so that even ones are head sides; rows with fewer cylinders have chambers without area. A chamber's own
-travel is the piston's distance from the dead centre at which that chamber is smallest. Forces are positive in rod
-tension:
-head side -p A, crank side +p A (design calculation of the 2D12, 2-14 and 2-15).
+stepped). Even chambers are head sides. Rows with fewer cylinders have chambers without area. A chamber's own travel is
+the piston's distance from the dead centre at which that chamber is smallest. Forces are positive in rod tension: head
+side -p A, crank side +p A (design calculation of the 2D12, 2-14 and 2-15).
 """
 
 import math

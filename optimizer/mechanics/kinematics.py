@@ -1,8 +1,8 @@
 """Motion of every row over the turn: displacement, velocity, acceleration, obliquity of the rod.
 
 A row's own crank angle phi counts from its outer dead centre in the direction of rotation. The
-displacement counts from the outer dead centre towards the shaft; velocity and acceleration are its
-derivatives, so that the inertia force +m a on the frame is positive in rod tension.
+displacement counts from the outer dead centre towards the shaft. Velocity and acceleration are its derivatives, so that
+the inertia force +m a on the frame is positive in rod tension.
 """
 
 import math

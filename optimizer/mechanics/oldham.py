@@ -1,8 +1,8 @@
 """Keys of an Oldham ring: loads, sliding speeds and friction loss, broadcasting over leading axes.
 
-The ring slides by e cos(theta - u) along its axis u in the frame, guided by two keys on that axis; two keys across it
-sit in the scroll and drive the ring. The rotation torque T is carried by each pair as the couple 2 N R, so N = T/(2 R);
-the keys in the scroll carry beside that the inertia of the ring, m e omega^2 cos(theta - u), half each. Against the
+The ring slides by e cos(theta - u) along its axis u in the frame, guided by two keys on that axis. Two keys across it
+sit in the scroll and drive the ring. The rotation torque T is carried by each pair as the couple 2 N R, so N = T/(2 R).
+The keys in the scroll carry beside that the inertia of the ring, m e omega^2 cos(theta - u), half each. Against the
 frame the ring slides with e omega sin, against the scroll, which circles, with e omega cos. Friction loads no key here.
 Angles in radians, counted in the direction of rotation.
 """

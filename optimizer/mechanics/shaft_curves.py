@@ -2,7 +2,7 @@
 
 All of them are responses to counterweights.
 
-Seen from the shaft the load of bearing j is a fixed curve and a constant: d_j(theta) + sum_k B_jk u_k, with B the real
+Seen from the shaft the load of bearing j is a fixed curve and a constant, d_j(theta) + sum_k B_jk u_k, with B the real
 influence of :mod:`bearings` and the loads of the rows as the shaft sees them (:mod:`whole_turn`). The bending moment is
 linear in loads and bearing loads, and between their planes linear in z. So the largest is at one of the planes:
 finitely many responses, and no error. Everything is over omega^2.

@@ -13,8 +13,8 @@ def on_guide(side: Real, axis: Complex, sense: Real, mass: Real, down: Complex) 
 
     In rod tension the rod draws the crosshead to the side of the crank pin: the side force N points along s j e^{jg}.
     Of the weight the part across the axis lies on the guide. Both are positive towards the lower guide. So a crosshead
-    is off it where the sum is negative (lecture slides on compressors: one of two opposed rows is lifted by
-    its side force, falls at the dead centres, and knocks).
+    is off it where the sum is negative (lecture slides on compressors). There one of two opposed rows is lifted by its
+    side force, falls at the dead centres, and knocks.
 
     Parameters
     ----------

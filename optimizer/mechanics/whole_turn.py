@@ -314,7 +314,7 @@ class TurnCurves(SeriesCurves):
     @cached_property
     def _quadrature(self) -> tuple[Complex, Real, Index]:
         """Values (N, C, n) at the Gauss nodes of all parts, the share of the turn for which each stands (N, 1, n), and
-        how many nodes each design has (N,): beyond these are none that count."""
+        how many nodes each design has (N,). Nodes beyond these do not count."""
         from optimizer.mechanics.kernel.quadrature import gauss_nodes
 
         whole, parts = self.whole, self._parts
@@ -349,7 +349,7 @@ class TurnCurves(SeriesCurves):
 
     def crossings(self, level: Real) -> tuple[Real, Real]:
         """Shaft angles (N C, n) rad at which scalars cross levels (N C,), jumps included, and what the integral up to
-        there may be off by (N C,); where a curve has fewer than another its angles are 0."""
+        there may be off by (N C,). Where a curve has fewer than another its angles are 0."""
         return self._series.crossings(self.pieces.cubics, compact(level))
 
     @cached_property

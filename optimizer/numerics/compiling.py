@@ -1,8 +1,8 @@
 """How inner loops are compiled: once for an installation, dividing as numpy does.
 
-Most of a kernel's time to compile is spent on what surrounds it: an entry from Python and one from C, counts of
-references to every array that is handed on. So entries and inner functions differ. What is called with numbers
-that are written out is compiled for each of them; numpy's integers are of one type.
+Most of a kernel's time to compile is spent on what surrounds it. That is an entry from Python and one from C, and
+counts of references to every array that is handed on. So entries and inner functions differ. What is called with
+numbers that are written out is compiled for each of them; numpy's integers are of one type.
 """
 
 from collections.abc import Callable
@@ -42,8 +42,8 @@ folded = njit(error_model="numpy", no_cpython_wrapper=True, no_cfunc_wrapper=Tru
 inner_with_arrays = njit(error_model="numpy", no_cpython_wrapper=True, no_cfunc_wrapper=True)
 #: for what stands in the innermost loops
 inlined = njit(error_model="numpy", inline="always")
-#: the same where a product and a sum may be rounded once, as one instruction: loops over a number of lanes that the
-#: compiler knows, which leave no rest that would be rounded otherwise
+#: the same where a product and a sum may be rounded once, as one instruction. It is for loops over a number of lanes
+#: that the compiler knows: no rest is left that would be rounded otherwise
 fused = njit(error_model="numpy", no_cpython_wrapper=True, no_cfunc_wrapper=True, _nrt=False, fastmath={"contract"})
 fused_inlined = njit(
     error_model="numpy",

@@ -2,8 +2,8 @@
 
 A rule turns the share k of a reciprocating force by a quarter turn: counterweights that act against the
 co-rotating phasor with 2 k |co|. For a single row |co| = |counter| = F0/2, so k F0 is turned across and
-(1 - k) F0 stays along the cylinder (the slides, "one row"); k = 1/2 removes the co-rotating phasor
-altogether, which leaves a circle that turns against the shaft.
+(1 - k) F0 stays along the cylinder (the slides, "one row"). A share k = 1/2 removes the co-rotating phasor altogether,
+which leaves a circle that turns against the shaft.
 """
 
 import math

@@ -1,7 +1,7 @@
 """The eight stages as data: what acts and what is left of it, and the iron of stage VII for any share.
 
 Of the first-order force of a reciprocating mass, m r omega^2 cos phi along its axis, a counterweight that turns with
-the shaft takes the share k away along the axis and brings k of it across. Its phasor is 2 k A1 for A1 the co-rotating
+the shaft takes the share k away along the axis. It brings k of it across. Its phasor is 2 k A1 for A1 the co-rotating
 phasor: k = 1/2 removes A1 and leaves the counter-rotating phasor alone (Balancing, slides, stages III and VII).
 """
 

@@ -56,7 +56,7 @@ class _Shape(NamedTuple):
 
 
 #: of forces and moments of the stages I to VI, and of what stage VIII sums up
-_ORDERS, _OF_BOTH = (1, 1, 1, 1, 2, 2), (1, 1, 2, 2)
+_ORDERS, _SUMMARY_ORDERS = (1, 1, 1, 1, 2, 2), (1, 1, 2, 2)
 _NAMES = ("first-order force", "first-order moment", "second-order force", "second-order moment")
 
 
@@ -109,7 +109,7 @@ def stages(
     noise = (_ROUNDING * scale[0], _ROUNDING * scale[1])
     before, after, summed, remainder = (
         actings(list(zip(pairs, orders, strict=True)), speed, noise)
-        for pairs, orders in ((was, _ORDERS), (now, _ORDERS), (of_all, _OF_BOTH), (all_left, _OF_BOTH))
+        for pairs, orders in ((was, _ORDERS), (now, _ORDERS), (of_all, _SUMMARY_ORDERS), (all_left, _SUMMARY_ORDERS))
     )
     shapes = [
         _Shape(_plane(pair), _frequency(n, speed), _balanceable(pair, n)) for pair, n in zip(was, _ORDERS, strict=True)
@@ -238,7 +238,7 @@ def _summary(was: Sequence[Ellipse], left: Sequence[Ellipse], scale: tuple[float
     scale : of the machine, N and N m.
     """
     orders, words, verdicts = set[int](), [], set[Balanceable]()
-    for k, (name, order, before, after) in enumerate(zip(_NAMES, _OF_BOTH, was, left, strict=True)):
+    for k, (name, order, before, after) in enumerate(zip(_NAMES, _SUMMARY_ORDERS, was, left, strict=True)):
         if after.peak > _NEGLIGIBLE * scale[k % 2]:
             orders.add(order)
             words.append(f"{name} {after.peak:.5g} {('N', 'N m')[k % 2]}, {_plane(after)}")

@@ -1,7 +1,7 @@
 """Anti-rotation pins of a scroll: their loads over the turn, dead points and exact peaks.
 
-A pin at z = R e^{j psi} of the scroll pushes along the eccentric e^{j theta} with Q; its moment is Q a with the
-lever a = R sin(theta - psi). For evenly spaced pins (Liu, Zhao and Li, equations (1) and (3))
+A pin at z = R e^{j psi} of the scroll pushes along the eccentric e^{j theta} with Q. Its moment is Q a with the lever a
+= R sin(theta - psi). For evenly spaced pins (Liu, Zhao and Li, equations (1) and (3))
 
     Q_i = 2 T_R / (n R) sin(theta - 2 pi (i - 1) / n).
 
@@ -250,8 +250,8 @@ class LoadShapes:
 def peaks(shapes: LoadShapes, torque: PeriodicTable) -> tuple[Real, Real]:
     """Largest |Q| over the turn, (n,) N, and the first angle where it stands, (n,) degrees in [0, 360).
 
-    Between the entries of the torque the derivative is continuous; its roots are bracketed by panels of half a
-    degree, the entries and the roots for a constant torque, and bisected to the last digit.
+    Between the entries of the torque the derivative is continuous. Panels of half a degree, the entries, and the roots
+    for a constant torque bracket its roots. These are bisected to the last digit.
     """
     fixed = np.concatenate([np.arange(0.0, 360.0 + _PANEL_DEG / 2.0, _PANEL_DEG), torque.angle_deg])
     own = shapes.candidates()

@@ -2,8 +2,8 @@
 
 All counterweights are off together, each by up to a share of its mass or by up to an angle, whichever way is worst.
 A norm |a + sum_k v_k| moves to |a + sum_k v_k (1 + e_k)|, or to |a + sum_k v_k e^{j psi_k}|; its largest value is that
-of its projection, over all directions phi, and along one direction every counterweight is at its worst by itself. So
-one angle is left to search, and between finitely many of its values the projection is a sine and a constant: exact.
+of its projection, over all directions phi. Along one direction every counterweight is at its worst by itself. So one
+angle is left to search, and between finitely many of its values the projection is a sine and a constant: exact.
 """
 
 import math

@@ -40,8 +40,8 @@ def shadow_prices(
     slope = np.add.reduce(influence * multipliers.term[..., :, None], axis=-2)
     if ceilings.names:
         slope = slope + np.add.reduce(np.conj(ceilings.norms.influence) * multipliers.ceiling[..., :, None], axis=-2)
-    # what a kilogram on a web is worth; the budget is spent in falling order of it, and costs what the last one is
-    # worth that it does not pay in full (docs/mathematics.md section 5)
+    # what a kilogram on a web is worth. The budget is spent in falling order of it. It costs what the last one is worth
+    # that it does not pay in full (docs/mathematics.md section 5)
     support = limits.support(-slope)
     worth = support
     if budget is None and not np.count_nonzero(limits.budget_ends):

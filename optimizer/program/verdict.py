@@ -185,7 +185,7 @@ def mass_resolution(statement: Statement, yardstick: Real) -> Real:
 
     It is 1e-5 of the least mass that could cancel a row of the objective, or the response under a ceiling, at the web
     where a kilogram does most. So the gap that it allows, 1e-4 of it, changes either by no more than ceilings may be
-    exceeded by: no least mass is more accurate than the ceilings that it is to keep.
+    exceeded by. No minimum mass is more accurate than the ceilings that it is to keep.
 
     Parameters
     ----------

@@ -9,8 +9,8 @@ from schemas.rating.answer import CylinderSize, DeadCentre, GasLoads, TandemLoad
 def gas_loads(p1: float, p2: float, ambient: float, acting: Acting, size: CylinderSize) -> GasLoads:
     """Gas forces [N] of one cylinder, positive in rod tension, (1-13) to (1-16).
 
-    At the outer dead centre the head side has just discharged and the crank side just taken in, at the inner one the
-    other way round: p1 F_z - p2 F_g and p2 F_z - p1 F_g. An open side is at ambient pressure.
+    At the outer dead centre the head side has just discharged and the crank side just taken in. At the inner one it is
+    the other way round: p1 F_z - p2 F_g and p2 F_z - p1 F_g. An open side is at ambient pressure.
 
     Parameters
     ----------

@@ -125,7 +125,7 @@ def look(cells: Cells) -> CellBounds:
 
 def _directions(cells: Cells, centre: Complex, travel: Real, off: Real) -> tuple[Real, Real, Real]:
     """Middle and half width of the directions of a cell that a peak in it can have, and how far they are beside the
-    vectors of the rows that are certain; a negative width where there are none.
+    vectors of the rows that are certain. The width is negative where there are none.
 
     Parameters
     ----------

@@ -4,7 +4,7 @@ Beside :mod:`optimizer.responses.response`, which knows one order at a time. A v
 frame, is
 d(theta) = e^{-j s theta} F(theta) as the shaft sees it. Counterweights turn with the shaft, so they add a constant:
 d(theta) + influence @ u. The peak over the turn is then the distance of a point from the farthest point of a fixed
-curve, convex in u, and its floor is the radius of the smallest circle around the curve.
+curve, and convex in u. Its floor is the radius of the smallest circle around the curve.
 
 Everything is divided by omega^2, as in :class:`optimizer.responses.response.Response`: forces are kg m, moments kg m^2,
 and the influence of a counterweight is free of speed. Angles are shaft angles theta in rad, from 0 to the period.

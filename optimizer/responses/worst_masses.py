@@ -1,11 +1,11 @@
 """Peaks over the turn where the masses of the rows scatter: the worst masses at the worst angle, bracketed.
 
 Every row adds its part g_r(theta) to a curve d(theta), times 1 + e_r with |e_r| no more than a share p. For one angle
-the largest |d + sum e_r g_r| is that along some direction phi, Re(e^{-j phi} d) + p sum_r |Re(e^{-j phi} g_r)|: a
-search in angle and direction, two numbers however many rows there are. In a cell of both most rows have one sign all
-over it, and with these signs they are one polynomial with the curve. The others are bounded by their sizes
-along its directions. Where few are left all their signs are tried, so that cells end with one sign for every row and
-close in on a peak like those of a curve.
+the largest |d + sum e_r g_r| is that along some direction phi, Re(e^{-j phi} d) + p sum_r |Re(e^{-j phi} g_r)|. That is
+a search in angle and direction, two numbers however many rows there are. In a cell of both most rows have one sign all
+over it, and with these signs they are one polynomial with the curve. The others are bounded by their sizes along its
+directions. Where few are left all their signs are tried, so that cells end with one sign for every row and close in on
+a peak like those of a curve.
 """
 
 from collections.abc import Sequence

@@ -24,7 +24,7 @@ _GAP = 1e-4
 #: sets of webs whose optima are looked at together
 _SUBSETS = 300
 #: of them those whose options near them are compared, how many near each, sets of them, and sums and pairs of halves
-_TRIED, _NEAR, _SETS, _SUMS, _PAIRS = 12, 400, 2_000_000, 200_000, 400_000
+_COMPARISONS, _NEAR, _SETS, _SUMS, _PAIRS = 12, 400, 2_000_000, 200_000, 400_000
 #: sets of a few webs up to which all are compared
 _EVERY = 1e9
 #: sums of a half where a set is made lighter
@@ -89,7 +89,7 @@ def compare_on_few_webs(
     for n in np.flatnonzero(few.lower_bound <= level).tolist():
         webs = np.flatnonzero(few.webs[n]).tolist()
         every = np.prod(np.sum(options.exists[webs], axis=-1, dtype=float)) <= _EVERY
-        if clock.spent() or not (every or n < _TRIED):
+        if clock.spent() or not (every or n < _COMPARISONS):
             return few.least
         candidates = [np.array([0]) for _ in range(options.slots)]
         for k in webs:

@@ -24,7 +24,7 @@ from schemas.machine.machine import Machine
 #: of a mass, relative: by which sums of masses are rounded
 _ROUNDING = 1e-12
 #: the same where some have any mass: what keeps a ceiling to its tolerance may be lighter than all that keep it
-_KEPT = 1e-7
+_SLACK = 1e-7
 #: gap of the least mass of any masses at any angles, which the search begins with
 _SHARP = 1e-6
 
@@ -85,7 +85,7 @@ def _of_choice(task: Task, choice: Choice, result: SearchResult, gap: float, rea
     mass, angle = in_drawing(task.machine, task.objective, choice.mass, choice.angle)
     value, fixed = float(np.sum(mass)), float(np.sum(fixed_masses(task.machine)))
     bound = bound + fixed
-    if np.isfinite(bound) and bound > value * (1.0 + (_ROUNDING if np.all(takes_options(task)) else _KEPT)):
+    if np.isfinite(bound) and bound > value * (1.0 + (_ROUNDING if np.all(takes_options(task)) else _SLACK)):
         bound, status, reason = np.nan, "inaccurate", CONTRADICTED
     bound = min(bound, value)
     of_value = (value - bound) / value if value > 0 else 0.0

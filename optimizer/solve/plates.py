@@ -1,9 +1,9 @@
 """Certified counterweights that are cut from plates, whose mass is no multiple of their unbalance.
 
 The mass m(U) of a plate is convex. Tangents of it are webs in one plane, each with a radius and a largest mass of its
-own, which together are no heavier than what is cut: what is proven of them is proven of the plate. What they call for
-is cut, and is the answer. Tangents are laid about a guess of the answer, and closer about what they call for,
-until the gap is at its target. A budget holds of what is cut and not of its tangents: such programs are solved by cuts.
+own, which together are no heavier than what is cut. What is proven of them is proven of the plate. What they call for
+is cut, and is the answer. Tangents are laid about a guess of the answer, and closer about what they call for, until the
+gap is at its target. A budget holds of what is cut and not of its tangents: such programs are solved by cuts.
 """
 
 from collections.abc import Sequence

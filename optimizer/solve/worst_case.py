@@ -58,7 +58,7 @@ def best_of_any_mass(
 
 
 def _beside_nominal(robust: Robust, goals: Goals, solution: Solution) -> Solution:
-    """The same with the worst case, and its cost beside the optimum of the nominal machine."""
+    """The same with the worst case, and its cost beside the optimum of the unchanged machine."""
     task, scene = robust.task, robust.scene
     best, late = _nominal_optimum(robust)
     if best is None:
@@ -76,7 +76,7 @@ def _beside_nominal(robust: Robust, goals: Goals, solution: Solution) -> Solutio
 def _proof_of(
     robust: Robust, best: CertifiedOptimum, placement: Fitted, u: Complex, implied: Mapping[str, float]
 ) -> dict[str, object]:
-    """The best counterweights (K,) kg m of the nominal machine, and the proof if there is one goal.
+    """The best counterweights (K,) kg m of the unchanged machine, and the proof if there is one goal.
 
     Parameters
     ----------
@@ -104,7 +104,7 @@ def with_worst_case(
 
     Parameters
     ----------
-    best : (K,) kg m, the best counterweights of the nominal machine, if any.
+    best : (K,) kg m, the best counterweights of the unchanged machine, if any.
     late : the limit of time left them open.
     proof : fields of the price that prove the nominal optimum.
     """
@@ -193,7 +193,7 @@ def _bearing_responses(machine: MachineOfCase, fidelity: Fidelity) -> Iterator[T
 
 
 def _nominal_optimum(robust: Robust) -> tuple[CertifiedOptimum | None, bool]:
-    """The best counterweights of the nominal machine, if any keep its ceilings; whether the limit of time,
+    """The best counterweights of the unchanged machine, if any keep its ceilings; whether the limit of time,
     of which the search has what is left, leaves that open."""
     plain, demand, left = nominal(robust), robust.demand, robust.left_s
     if left == 0.0:
@@ -206,7 +206,7 @@ def _nominal_optimum(robust: Robust) -> tuple[CertifiedOptimum | None, bool]:
 
 
 def _price(robust: Robust, u: Complex, best: Complex | None) -> dict[str, float | None]:
-    """What the worst case costs nominally, and the best of the nominal machine in the worst case."""
+    """What the worst case costs nominally, and the best of the unchanged machine in the worst case."""
     program, square = nominal(robust).program, robust.scene.omega_squared
     return {
         "nominal": float(program.values(u, _CLOSE).goals[-1]) * square,
@@ -216,7 +216,7 @@ def _price(robust: Robust, u: Complex, best: Complex | None) -> dict[str, float 
 
 
 def nominal(robust: Robust) -> Goals:
-    """The program of the nominal machine, with nothing off."""
+    """The program of the unchanged machine, with nothing off."""
     task, scene = robust.task, robust.scene
     case = MachineOfCase(task.space, scene, None, 1.0, 0.0).case()
     return formulate(*task.space, [case], scene.omega_squared, task.fidelity)

@@ -4,7 +4,7 @@ from typing import Literal
 
 from pydantic import Field
 
-from schemas.answer.counterweights import Counterweight, FittedShaft
+from schemas.answer.counterweights import FittedShaft, WebCounterweights
 from schemas.base.model import Model
 from schemas.base.quantities import Fraction, Kilograms
 
@@ -32,9 +32,7 @@ class Alternative(Model):
         " null if nothing is proven",
         examples=[2.0],
     )
-    counterweights: tuple[Counterweight, ...] = Field(
-        description="one for each web, in the machine's order", examples=[[]]
-    )
+    counterweights: WebCounterweights
     balance_shafts: tuple[FittedShaft, ...] = Field(
         (), description="what the balance shafts carry beside them", examples=[[]]
     )

@@ -1,14 +1,14 @@
 """What the service answers. Every figure is recomputed by the mechanics."""
 
-from typing import Literal
+from typing import Annotated, Literal
 
 from pydantic import Field
 
 from schemas.answer.alternatives import Alternative
-from schemas.answer.caution import Caution
-from schemas.answer.counterweights import Counterweight, FittedShaft
+from schemas.answer.caution import Cautions, StatusReason
+from schemas.answer.counterweights import Counterweight, FittedShaft, ShaftsMass, ShaftUnbalances
 from schemas.answer.first_order import Floor, Residual
-from schemas.answer.infeasibility import Infeasibility
+from schemas.answer.infeasibility import InfeasibilityProof
 from schemas.answer.limits import MachineLimit, ShadowPrice
 from schemas.answer.outputs import OutputFields
 from schemas.answer.proof import BoundMultipliers, Multipliers
@@ -53,8 +53,8 @@ class GoalReached(Model):
     limit: float = Field(description="what the goals after it had to keep", examples=[30405.7])
     multipliers: BoundMultipliers | None = Field(
         None,
-        description="of the bound of a goal before the last, under the limits of those before it; null of the last,"
-        " whose multipliers are the certificate's, of what castings cost, and where choices were searched",
+        description="of the bound of a goal before the last, under the limits of those before it. Null of the last,"
+        " whose multipliers are the certificate's; of what castings cost; and where choices were searched",
         examples=[None],
     )
 
@@ -85,10 +85,10 @@ class Certificate(Model):
         description="total mass above that bound, over `yardstick`; null likewise", examples=[2e-9]
     )
     mass_yardstick_kg: Kilograms | None = Field(
-        description="what the mass gap is relative to: the total mass; where that is less, 1e-5 of the minimum mass"
-        " that could cancel the objective, or a response under a ceiling, at the web where a kilogram does most. The"
-        " gap allowed then changes neither by more than the tolerance of a ceiling. Null if minimum mass was"
-        " not asked for",
+        description="what the mass gap is relative to: the total mass. Where that is less, it is 1e-5 of the minimum"
+        " mass that could cancel the objective, or a response under a ceiling, at the web where a kilogram does most."
+        " The gap allowed then changes neither by more than the tolerance of a ceiling. Null if minimum mass was not"
+        " asked for",
         examples=[41.2],
     )
     mass_objective_limit: float | None = Field(
@@ -108,8 +108,8 @@ class Certificate(Model):
     rounds: int | None = Field(None, description="programs solved to find them; null likewise", examples=[5])
     continuous_lower_bound: float | None = Field(
         None,
-        description="the bound that multipliers prove: no counterweights of any mass and angle within the limits have a"
-        " smaller objective; null where nothing is chosen from a catalogue, or if nothing is proven",
+        description="the bound that multipliers prove: no counterweights of any mass and angle within the limits have"
+        " a smaller objective. Null where nothing is chosen from a catalogue, or if nothing is proven",
         examples=[None],
     )
     nodes: int | None = Field(
@@ -150,6 +150,27 @@ class Timing(Model):
     report_ms: Milliseconds = Field(description="residuals and other outputs", examples=[0.6])
 
 
+BalanceRates = Annotated[
+    tuple[BalanceRate, ...],
+    Field(description="balance rate of every throw; empty if infeasible, and of a scroll", examples=[[{"rate": 0.82}]]),
+]
+ShaftQuality = Annotated[
+    GradeReached | None,
+    Field(
+        description="balance quality of the shaft (ISO 21940-11); null where the machine asks for none, or no output"
+        " for the first order",
+        examples=[None],
+    ),
+]
+EffectUses = Annotated[
+    dict[str, EffectUse],
+    Field(
+        description="every effect, whether it was simulated, for which outputs, and its time",
+        examples=[{"rotating_inertia": {"simulated": True, "needed_by": ["residual"], "time_ms": 0.1}}],
+    ),
+]
+
+
 class OptimizeAnswer(OutputFields, Answer):
     """Certified counterweights."""
 
@@ -158,10 +179,7 @@ class OptimizeAnswer(OutputFields, Answer):
         "infeasible: no counterweights satisfy the ceilings",
         examples=["optimal"],
     )
-    status_reason: str = Field(
-        description="why the status is what it is, in a sentence",
-        examples=["The gap to the proven lower bound is within the asked one, and every limit is kept."],
-    )
+    status_reason: StatusReason
     counterweights: tuple[Counterweight, ...] = Field(
         description="one for each web, in the machine's order; empty if infeasible", examples=[[]]
     )
@@ -179,9 +197,9 @@ class OptimizeAnswer(OutputFields, Answer):
     )
     shadow_prices: tuple[ShadowPrice, ...] = Field(
         (),
-        description="price of every limit that the answer touches or that holds the objective up, webs in the "
-        "machine's order and then the machine's limits; empty if infeasible, and with priorities, scenarios or "
-        "tolerances",
+        description="price of every limit that the answer touches or that holds the objective up, webs in the"
+        " machine's order and then the machine's limits. Empty if infeasible, and with priorities, scenarios or"
+        " tolerances",
         examples=[[{"limit": "max_mass", "web": "1a", "value": 102.8, "unit": "N/kg"}]],
     )
     alternatives: tuple[Alternative, ...] = Field(
@@ -209,28 +227,12 @@ class OptimizeAnswer(OutputFields, Answer):
     certificate: Certificate | None = Field(
         description="the proof; null if infeasible", examples=[{"objective": 30345.0}]
     )
-    infeasibility: Infeasibility | None = Field(
-        None, description="which ceilings conflict; only if infeasible", examples=[None]
-    )
-    balance_rate: tuple[BalanceRate, ...] = Field(
-        (), description="balance rate of every throw; empty if infeasible, and of a scroll", examples=[[{"rate": 0.82}]]
-    )
-    balance_quality: GradeReached | None = Field(
-        None,
-        description="balance quality of the shaft (ISO 21940-11); null where the machine asks for none, or no output"
-        " for the first order",
-        examples=[None],
-    )
-    warnings: tuple[Caution, ...] = Field(
-        (),
-        description="what one should know about an answer that is right as it stands",
-        examples=[[{"code": "bare_crank", "message": "", "pointer": "/objective"}]],
-    )
+    infeasibility: InfeasibilityProof = None
+    balance_rate: BalanceRates = ()
+    balance_quality: ShaftQuality = None
+    warnings: Cautions = ()
     reference_plane_m: Metres = Field(description="plane of the moments", examples=[0.0])
-    effects: dict[str, EffectUse] = Field(
-        description="every effect, whether it was simulated, for which outputs, and its time",
-        examples=[{"rotating_inertia": {"simulated": True, "needed_by": ["residual"], "time_ms": 0.1}}],
-    )
+    effects: EffectUses
     timing: Timing = Field(description="where the time went", examples=[{"total_ms": 4.1}])
 
 
@@ -241,35 +243,17 @@ class AnalyzeAnswer(OutputFields, Answer):
         description="the counterweights on the machine, one for each web", examples=[[]]
     )
     total_mass_kg: Kilograms = Field(description="total mass of the counterweights", examples=[41.2])
-    balance_shafts: tuple[FittedShaft, ...] = Field(
-        (), description="unbalances of the balance shafts, in their order", examples=[[]]
-    )
-    balance_shafts_mass_kg: Kilograms | None = Field(
-        None, description="total mass of these; null where there are none", examples=[None]
-    )
+    balance_shafts: ShaftUnbalances = ()
+    balance_shafts_mass_kg: ShaftsMass = None
     floor: Floor | None = Field(
         None,
         description="what no counterweights can remove; null if no output asks for the first order",
         examples=[{"force_N": 2498.7}],
     )
-    balance_rate: tuple[BalanceRate, ...] = Field(
-        (), description="balance rate of every throw; empty if infeasible, and of a scroll", examples=[[{"rate": 0.82}]]
-    )
-    balance_quality: GradeReached | None = Field(
-        None,
-        description="balance quality of the shaft (ISO 21940-11); null where the machine asks for none, or no output"
-        " for the first order",
-        examples=[None],
-    )
-    warnings: tuple[Caution, ...] = Field(
-        (),
-        description="what one should know about an answer that is right as it stands",
-        examples=[[{"code": "bare_crank", "message": "", "pointer": "/objective"}]],
-    )
+    balance_rate: BalanceRates = ()
+    balance_quality: ShaftQuality = None
+    warnings: Cautions = ()
     reference_plane_m: Metres = Field(description="plane of the moments", examples=[0.0])
     residual: Residual | None = Field(None, description="first order before and after, if asked for", examples=[None])
-    effects: dict[str, EffectUse] = Field(
-        description="every effect, whether it was simulated, for which outputs, and its time",
-        examples=[{"rotating_inertia": {"simulated": True, "needed_by": ["residual"], "time_ms": 0.1}}],
-    )
+    effects: EffectUses
     timing: Timing = Field(description="where the time went", examples=[{"total_ms": 1.2}])

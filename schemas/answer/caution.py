@@ -1,6 +1,6 @@
 """What one should know about an answer that is right as it stands."""
 
-from typing import Literal
+from typing import Annotated, Literal
 
 from pydantic import Field
 
@@ -32,3 +32,19 @@ class Caution(Model):
         description="JSON pointer into the request: the field that it is about",
         examples=["/machine/throws/0/rows/0/cylinder"],
     )
+
+
+Cautions = Annotated[
+    tuple[Caution, ...],
+    Field(
+        description="what one should know about an answer that is right as it stands",
+        examples=[[{"code": "bare_crank", "message": "", "pointer": "/objective"}]],
+    ),
+]
+StatusReason = Annotated[
+    str,
+    Field(
+        description="why the status is what it is, in a sentence",
+        examples=["The gap to the proven lower bound is within the asked one, and every limit is kept."],
+    ),
+]

@@ -1,7 +1,7 @@
 """Counterweights as they are fitted."""
 
 from itertools import chain
-from typing import Protocol
+from typing import Annotated, Protocol
 
 from pydantic import Field
 
@@ -88,3 +88,15 @@ class OnAllShafts(Protocol):
 def every_counterweight(holder: OnAllShafts) -> tuple[Counterweight, ...]:
     """Those on balance shafts behind those of the crankshaft."""
     return (*holder.counterweights, *chain.from_iterable(shaft.counterweights for shaft in holder.balance_shafts))
+
+
+#: fields of points, sets and answers that state what is on all webs and on all balance shafts
+WebCounterweights = Annotated[
+    tuple[Counterweight, ...], Field(description="one for each web, in the machine's order", examples=[[]])
+]
+ShaftUnbalances = Annotated[
+    tuple[FittedShaft, ...], Field(description="unbalances of the balance shafts, in their order", examples=[[]])
+]
+ShaftsMass = Annotated[
+    Kilograms | None, Field(description="total mass of these; null where there are none", examples=[None])
+]

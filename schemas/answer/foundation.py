@@ -10,7 +10,7 @@ from schemas.base.quantities import Degrees, NewtonMetres, Newtons
 
 _PHASE = (
     "phase in [0, 360): the load is A cos(order psi - phase), psi the angle of the shaft since the outer dead centre,"
-    " in the sense of rotation; 0 where the amplitude is 0"
+    " in the sense of rotation. It is 0 where the amplitude is 0"
 )
 
 

@@ -1,5 +1,7 @@
 """Ceilings that cannot be kept, and how far each peak comes down."""
 
+from typing import Annotated
+
 from pydantic import Field
 
 from schemas.answer.counterweights import Counterweight, FittedShaft
@@ -85,3 +87,8 @@ class Infeasibility(Model):
         description="the multipliers that prove the conflict and both bounds",
         examples=[{"conflict": {"rows": [{"name": "force", "value": 0.01}]}}],
     )
+
+
+InfeasibilityProof = Annotated[
+    Infeasibility | None, Field(description="which ceilings conflict; only if infeasible", examples=[None])
+]

@@ -52,9 +52,9 @@ class ShadowPrice(Model):
     web: Name | None = Field(description="web whose limit it is; null for a limit of the machine", examples=["1a"])
     value: float = Field(
         ge=0,
-        description="fall of the objective per unit of the limit, the objective taken as a force (over the force "
-        "weight) or, where the force has no weight, as a moment, then as a bearing load, bending moment or roll; 0 if "
-        "it cannot be distinguished from 0 by the certificate",
+        description="fall of the objective per unit of the limit. The objective is taken as a force (over the force"
+        " weight). Where the force has no weight, it is a moment, then a bearing load, bending moment or roll. The"
+        " price is 0 if it cannot be distinguished from 0 by the certificate",
         examples=[102.8],
     )
     unit: PriceUnit = Field(description="unit of the value; sectors are opened to both sides", examples=["N/kg"])

@@ -97,8 +97,8 @@ class BearingWeight(Model):
 
     name: str = Field(description="name of the bearing", examples=["A"])
     weight_N: Newtons = Field(
-        description="of what turns: masses at the cranks, shaft_parts, counterweights; with gravity_deg also of what "
-        "reciprocates, by the part of its weight along the axis, the rest of which lies on the guide",
+        description="of what turns: masses at the cranks, shaft_parts, counterweights. With gravity_deg also of what"
+        " reciprocates, by the part of its weight along the axis; the rest lies on the guide",
         examples=[410.0],
     )
     x_N: Newtons | None = Field(

@@ -27,7 +27,7 @@ _PART = (
     " change only where the direction weights differ"
 )
 _ANGLE = "shaft angle at which a response over a revolution is cut; null where the peak has a closed form"
-_SCENARIO = "scenario whose response it is; null for the machine as it is given"
+_SCENARIO = "scenario whose response it is; null for the unchanged machine"
 
 
 class TermMultiplier(Model):
@@ -114,7 +114,7 @@ class Multipliers(Model):
 
 
 class NominalProof(Model):
-    """The best of a design as it is given, nothing off, and what proves it; fields as in the price of robustness."""
+    """The best of an unchanged design, nothing off, and what proves it; fields as in the price of robustness."""
 
     lower_bound: float | None = Field(
         description="certified: nothing within the limits is smaller on that machine, nothing off; null where goals are"

@@ -49,17 +49,17 @@ class WorstCase(WorstPeaks):
         examples=[None],
     )
     objective: float = Field(
-        description="the largest weighted objective, which is what was minimised and certified; of a sum of peaks every"
-        " peak has its own worst case, so that the sum is no less than the worst case of the sum",
+        description="the largest weighted objective, which is what was minimised and certified. In a sum of peaks"
+        " every peak has its own worst case. So the sum is no less than the worst case of the sum",
         examples=[31730.2],
     )
 
 
 class PriceOfRobustness(Model):
-    """What the worst case costs: objectives of the machine as it is given, beside those of the worst case."""
+    """What the worst case costs: objectives of the unchanged machine, beside those of the worst case."""
 
     nominal: float = Field(
-        description="what these counterweights come to on the machine as it is given, nothing off", examples=[30420.1]
+        description="what these counterweights come to on the unchanged machine, nothing off", examples=[30420.1]
     )
     nominal_optimum: float | None = Field(
         description="the smallest objective of that machine, nothing off; null where its ceilings are out of reach, or"

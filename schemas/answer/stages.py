@@ -23,8 +23,8 @@ class Acting(Model):
         examples=["fixed"],
     )
     direction_deg: Degrees | None = Field(
-        description="where it points at shaft angle 0 if it turns, else the direction of the major axis in [0, 180); "
-        "for a moment, the direction that spans its plane together with the shaft; null where there is none",
+        description="where it points at shaft angle 0 if it turns, else the direction of the major axis in [0, 180)."
+        " For a moment, it is the direction that spans its plane together with the shaft. Null where there is none",
         examples=[0.0],
     )
 

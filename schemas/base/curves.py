@@ -138,8 +138,8 @@ def _is_double(values: Any) -> bool:
 
 
 def _is_finite(values: Any) -> bool:
-    """Whether all of an array (n,) are finite numbers: by the largest and smallest, which are what is no finite number,
-    where one is; by their places, in half the time of a look at each."""
+    """Whether all of an array (n,) are finite numbers: by the places of the largest and smallest, in half the time of a
+    look at each. Where a number is not finite, one of these is it."""
     return not len(values) or (isfinite(values[values.argmax()]) and isfinite(values[values.argmin()]))
 
 

@@ -2,7 +2,7 @@
 
 Every field has its title, its place and its heading beside its type, and its unit always there, never deeper. What
 takes plain values of several types, such as 0.09, "90 mm" and null, is one schema with a list of types in place of
-alternatives, so that a form has one input for it and nothing to choose.
+alternatives. A form then has one input for it and nothing to choose.
 """
 
 from collections.abc import Iterator
@@ -54,7 +54,7 @@ def _in_groups(fields: list[str], heading: dict[str, str]) -> list[str]:
 
 
 def _condition(schema: Schema) -> None:
-    """Of fields that go together, the usual ones are required unless others are there: alternatives of a whole model
+    """Of fields that go together, the usual ones are required unless others are there. Alternatives of a whole model
     would be a choice in a form, and no type at all in languages.
     """
     usual, *alternatives = schema.get("anyOf", [{}])

@@ -1,9 +1,9 @@
 """Rules between fields, each said once: for one request, and for the many of a sweep.
 
 In a sweep a varied field holds a column (n,), one value for each design, and null in all of them or in none. Rules
-are written with the operators that numbers and columns share (``<``, ``==``, ``&``, ``|``), so that the verdict of a
-rule is one for all designs, or one for each. Every request is measured by all rules, and hardly one is broken: paths
-and messages are made where something may be.
+are written with the operators that numbers and columns share (``<``, ``==``, ``&``, ``|``), so that a rule has one
+verdict for all designs, or one for each. Every request is measured by all rules, and hardly one is broken: paths and
+messages are made where something may be.
 """
 
 from collections.abc import Iterable, Iterator

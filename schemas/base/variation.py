@@ -12,8 +12,8 @@ Varied = TypeVar("Varied", bound=Model)
 def with_fields(request: Varied, values: Mapping[Path, Any]) -> Varied:
     """The request with other contents in some fields, nothing checked.
 
-    The contents may be columns (n,), one value for each design, which the types of the fields do not say: the
-    assembly of machines into arrays and the rules of :mod:`schemas.base.rules` take both.
+    The contents may be columns (n,), one value for each design, which the types of the fields do not say. The assembly
+    of machines into arrays and the rules of :mod:`schemas.base.rules` take both.
 
     Parameters
     ----------

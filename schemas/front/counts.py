@@ -4,7 +4,7 @@ from typing import Literal
 
 from pydantic import Field
 
-from schemas.answer.counterweights import Counterweight, FittedShaft
+from schemas.answer.counterweights import Counterweight, FittedShaft, ShaftsMass
 from schemas.base.model import Displayable, Model
 from schemas.base.quantities import Kilograms, NewtonMetres, Newtons
 
@@ -68,9 +68,7 @@ class CountPoint(Model):
     balance_shafts: tuple[FittedShaft, ...] = Field(
         (), description="unbalances of the balance shafts, in their order; none if infeasible", examples=[[]]
     )
-    balance_shafts_mass_kg: Kilograms | None = Field(
-        None, description="total mass of these; null where there are none", examples=[None]
-    )
+    balance_shafts_mass_kg: ShaftsMass = None
     nodes: int = Field(description="nodes of the tree that proves it; 0 where all sets were compared", examples=[0])
     method: str = Field(description="what found it", examples=["exhaustion in halves"])
 

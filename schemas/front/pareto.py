@@ -5,10 +5,11 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
-from schemas.answer.answers import EffectUse, Timing
-from schemas.answer.counterweights import Counterweight, FittedShaft
+from schemas.answer.answers import EffectUses, Timing
+from schemas.answer.caution import StatusReason
+from schemas.answer.counterweights import ShaftsMass, ShaftUnbalances, WebCounterweights
 from schemas.answer.first_order import FirstOrder, Floor
-from schemas.answer.infeasibility import Infeasibility
+from schemas.answer.infeasibility import InfeasibilityProof
 from schemas.answer.limits import MachineLimit
 from schemas.answer.proof import EndMultipliers, Multipliers
 from schemas.answer.robust import WorstPeaks
@@ -196,10 +197,10 @@ class CornerCertificate(Model):
         description="total mass above that bound, over `yardstick`; null likewise", examples=[3e-8]
     )
     mass_yardstick_kg: Kilograms | None = Field(
-        description="what the mass gap is relative to: the total mass; where that is less, 1e-5 of the minimum mass"
-        " that could cancel one of the peaks, or a response under a ceiling, at the web where a kilogram does most."
-        " The gap allowed then changes none by more than the tolerance of a ceiling. Null if minimum mass was not"
-        " asked for",
+        description="what the mass gap is relative to: the total mass. Where that is less, it is 1e-5 of the minimum"
+        " mass that could cancel one of the peaks, or a response under a ceiling, at the web where a kilogram does"
+        " most. The gap allowed then changes none by more than the tolerance of a ceiling. Null if minimum mass was"
+        " not asked for",
         examples=[236.35],
     )
     mass_force_limit_N: Newtons | None = Field(
@@ -226,22 +227,19 @@ class ParetoPoint(Model):
         description="optimal: certified to the asked gap; inaccurate: certified to a larger gap, which is reported",
         examples=["optimal"],
     )
-    status_reason: str = Field(
-        description="why the status is what it is, in a sentence",
-        examples=["The gap to the proven lower bound is within the asked one, and every limit is kept."],
-    )
+    status_reason: StatusReason
     force_peak_N: Newtons = Field(
-        description="first-order peak force of the machine as it is given, nothing off", examples=[7504.6]
+        description="first-order peak force of the unchanged machine, nothing off", examples=[7504.6]
     )
     moment_peak_Nm: NewtonMetres = Field(description="first-order peak moment, likewise", examples=[20123.28])
     weighted_force_peak_N: Newtons = Field(
         description="peak of the force with direction weights in the worst case, which is traded, times the weight of"
-        " its scenario; the peak force where all are 1 and nothing is off",
+        " its scenario. It is the peak force where all are 1 and nothing is off",
         examples=[7504.6],
     )
     weighted_moment_peak_Nm: NewtonMetres = Field(
         description="peak of the moment with direction weights in the worst case, which is traded, times the weight of"
-        " its scenario; the peak moment where all are 1 and nothing is off",
+        " its scenario. It is the peak moment where all are 1 and nothing is off",
         examples=[20123.28],
     )
     worst_case: WorstPeaks | None = Field(
@@ -253,15 +251,9 @@ class ParetoPoint(Model):
     total_mass_kg: Kilograms = Field(
         description="total mass of the counterweights on the crankshaft", examples=[236.35]
     )
-    counterweights: tuple[Counterweight, ...] = Field(
-        description="one for each web, in the machine's order", examples=[[]]
-    )
-    balance_shafts: tuple[FittedShaft, ...] = Field(
-        (), description="unbalances of the balance shafts, in their order", examples=[[]]
-    )
-    balance_shafts_mass_kg: Kilograms | None = Field(
-        None, description="total mass of these; null where there are none", examples=[None]
-    )
+    counterweights: WebCounterweights
+    balance_shafts: ShaftUnbalances = ()
+    balance_shafts_mass_kg: ShaftsMass = None
     active_limits: tuple[MachineLimit, ...] = Field(
         description="limits of the whole machine that the point touches", examples=[["max_total_mass"]]
     )
@@ -331,9 +323,7 @@ class ParetoFront(Displayable):
         " beyond any need: it is proven that whatever the front is made of, and the lightest, lies within them",
         examples=[{"1a": 412.5}],
     )
-    infeasibility: Infeasibility | None = Field(
-        None, description="which ceilings conflict; only if infeasible", examples=[None]
-    )
+    infeasibility: InfeasibilityProof = None
 
 
 class ParetoAnswer(Answer):
@@ -356,8 +346,5 @@ class ParetoAnswer(Answer):
     )
     floor: Floor = Field(description="what no counterweights can remove", examples=[{"force_N": 5003.1}])
     reference_plane_m: Metres = Field(description="plane of the moments", examples=[0.0])
-    effects: dict[str, EffectUse] = Field(
-        description="every effect, whether it was simulated, for which outputs, and its time",
-        examples=[{"rotating_inertia": {"simulated": True, "needed_by": ["residual"], "time_ms": 0.1}}],
-    )
+    effects: EffectUses
     timing: Timing = Field(description="where the time went", examples=[{"total_ms": 210.0}])

@@ -4,8 +4,9 @@ from typing import TYPE_CHECKING, Annotated, Literal
 
 from pydantic import Field
 
-from schemas.answer.counterweights import Counterweight, FittedShaft
-from schemas.answer.infeasibility import Infeasibility
+from schemas.answer.caution import StatusReason
+from schemas.answer.counterweights import ShaftsMass, ShaftUnbalances, WebCounterweights
+from schemas.answer.infeasibility import InfeasibilityProof
 from schemas.base.model import Displayable, Model
 from schemas.base.quantities import Kilograms, NewtonMetres, Newtons
 from schemas.base.responses import RESPONSES
@@ -55,7 +56,7 @@ class TradedCertificate(Model):
     )
     mass_lower_bound_kg: Kilograms | None = Field(
         description="no counterweights that are as good in every response, to within that gap, have a smaller total"
-        " mass; null if minimum mass was not asked for, or the mass is traded",
+        " mass. Null if minimum mass was not asked for, or the mass is traded",
         examples=[41.2],
     )
     mass_relative_gap: float | None = Field(
@@ -73,10 +74,7 @@ class TradedPoint(Model):
         description="optimal: certified to the asked gap; inaccurate: certified to a larger gap, which is reported",
         examples=["optimal"],
     )
-    status_reason: str = Field(
-        description="why the status is what it is, in a sentence",
-        examples=["The gap to the proven lower bound is within the asked one, and every limit is kept."],
-    )
+    status_reason: StatusReason
     values: tuple[float, ...] = Field(
         description="one for each response, in their order, in the worst case, with the weights of scenarios; of what"
         " is known by a bracket its upper end",
@@ -84,7 +82,7 @@ class TradedPoint(Model):
     )
     nominal_values: tuple[float, ...] | None = Field(
         None,
-        description="the same of the machine as it is given, nothing off; null without scenarios and tolerances",
+        description="the same of the unchanged machine, nothing off; null without scenarios and tolerances",
         examples=[None],
     )
     beaten_by: int | None = Field(
@@ -95,19 +93,13 @@ class TradedPoint(Model):
         examples=[None],
     )
     force_peak_N: Newtons = Field(
-        description="first-order peak force of the machine as it is given, nothing off", examples=[7504.6]
+        description="first-order peak force of the unchanged machine, nothing off", examples=[7504.6]
     )
     moment_peak_Nm: NewtonMetres = Field(description="first-order peak moment, likewise", examples=[20123.28])
     total_mass_kg: Kilograms = Field(description="total mass of the counterweights on the crankshaft", examples=[41.2])
-    counterweights: tuple[Counterweight, ...] = Field(
-        description="one for each web, in the machine's order", examples=[[]]
-    )
-    balance_shafts: tuple[FittedShaft, ...] = Field(
-        (), description="unbalances of the balance shafts, in their order", examples=[[]]
-    )
-    balance_shafts_mass_kg: Kilograms | None = Field(
-        None, description="total mass of these; null where there are none", examples=[None]
-    )
+    counterweights: WebCounterweights
+    balance_shafts: ShaftUnbalances = ()
+    balance_shafts_mass_kg: ShaftsMass = None
     certificate: TradedCertificate = Field(description="the proof", examples=[{"relative_gap": 3e-7}])
 
 
@@ -134,6 +126,4 @@ class TradedFront(Displayable):
     points: tuple[TradedPoint, ...] = Field(
         description="of two responses in the order of the rising first; none if infeasible", examples=[[]]
     )
-    infeasibility: Infeasibility | None = Field(
-        None, description="which ceilings conflict; only if infeasible", examples=[None]
-    )
+    infeasibility: InfeasibilityProof = None

@@ -54,8 +54,8 @@ class Grading(Model):
 class GradeReached(Model):
     """Balance quality with and without counterweights.
 
-    By its design a shaft has the unbalance that turns against half of every reciprocating mass; what deviates from
-    that is the first-order force and moment that turn with the shaft.
+    By its design a shaft has the unbalance that turns against half of every reciprocating mass. What deviates from that
+    is the first-order force and moment that turn with the shaft.
     """
 
     permissible_kg_m: KilogramMetres = Field(

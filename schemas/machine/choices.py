@@ -71,7 +71,7 @@ KINDS: dict[str, ChoiceKind] = {
     # beside these two
 }
 #: fields of which a web that states none is of any mass at any angle
-CHOSEN = frozenset({*KINDS, "min_fitted_mass_kg"})
+CHOICE_FIELDS = frozenset({*KINDS, "min_fitted_mass_kg"})
 
 
 def stated(web: Any) -> list[str]:

@@ -75,8 +75,8 @@ class Cylinder(GasState, Ruled):
     )
     pressure: IndicatedPressure | None = Field(
         None,
-        description="indicated pressure of an engine or of a measured compressor; a side that has one needs no other "
-        "gas data than its area, the open side of a trunk piston only ambient_pressure_Pa",
+        description="indicated pressure of an engine or of a measured compressor. A side that has one needs no other"
+        " gas data than its area. The open side of a trunk piston needs ambient_pressure_Pa only",
         examples=[None],
     )
 

@@ -12,7 +12,7 @@ from schemas.base.units import Unit
 from schemas.machine.balance_quality import BalanceQuality
 from schemas.machine.catalogue import Catalogue
 from schemas.machine.catalogue_rules import catalogue_rules
-from schemas.machine.choices import CHOSEN, stated
+from schemas.machine.choices import CHOICE_FIELDS, stated
 from schemas.machine.webs import Web, WebGroup
 
 MAX_WEBS = 500
@@ -142,7 +142,7 @@ class Rotor(Ruled):
             return "discrete"
         least = False
         for web in self.every_web:
-            if not CHOSEN.isdisjoint(web.__pydantic_fields_set__):
+            if not CHOICE_FIELDS.isdisjoint(web.__pydantic_fields_set__):
                 if stated(web):
                     return "discrete"
                 least = least or web.min_fitted_mass_kg is not None
@@ -203,7 +203,7 @@ def no_catalogue(machine: Rotor, path: Path, subject: str) -> Iterator[Rule]:
         if web.min_fitted_mass_kg is not None
     )
     for field in (*machine.choice_fields(), *least):
-        yield Rule(True, (*path, *field), f"serves only to optimize one machine as it is given, not {subject}")
+        yield Rule(True, (*path, *field), f"serves only to optimize one machine by itself, not {subject}")
 
 
 def no_groups(machine: Rotor, path: Path, subject: str) -> Iterator[Rule]:

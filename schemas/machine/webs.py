@@ -18,7 +18,7 @@ from schemas.machine.throws import MAX_THROWS
 _INNERMOST = 0.999
 MAX_GROUPED = 500
 #: fields of a web with options for its counterweight
-_CHOSEN = (
+_CHOICE_FIELDS = (
     "envelope", "sector", *CHOICES, "max_centrifugal_force_N", "min_fitted_mass_kg",
 )  # fmt: skip
 #: what follows from an envelope, or is limited by it
@@ -104,7 +104,7 @@ class Web(Ruled):
                 {"required": ["fixed"]},
             ],
             **conditions(
-                when(present("fixed"), absent(*_CHOSEN)),
+                when(present("fixed"), absent(*_CHOICE_FIELDS)),
                 when(present("envelope"), absent("counterweight_radius_m", *_OF_ENVELOPES)),
                 when(
                     absent("fixed", "envelope"),
@@ -193,7 +193,7 @@ class Web(Ruled):
             if self.max_mass_kg is not None:
                 heavier = self.fixed.mass_kg > self.max_mass_kg
                 yield Rule(heavier, ("fixed", "mass_kg"), "more than max_mass_kg of this web")
-            for name in _CHOSEN:
+            for name in _CHOICE_FIELDS:
                 if getattr(self, name) is not None:
                     yield Rule(True, (name,), f"remove `{name}`: this web has a fixed counterweight")
         elif self.envelope is None:

@@ -5,6 +5,7 @@ from typing import Literal
 from pydantic import ConfigDict, Field
 
 from schemas.answer.answers import Timing
+from schemas.answer.caution import StatusReason
 from schemas.answer.counterweights import Counterweight, FittedShaft
 from schemas.answer.dynamics import RowSeries
 from schemas.answer.first_order import FirstOrder
@@ -64,7 +65,7 @@ class MatchCertificate(Model):
         examples=[383.8],
     )
     method: Literal["exhaustion", "sorting"] = Field(
-        description="exhaustion: every assignment counts, those that a bound excludes are left out; sorting: the best"
+        description="exhaustion: every assignment counts, those that a bound excludes are left out. sorting: the best"
         " of a search, beside the bound that sorting the masses proves, of all or set by set of the parts",
         examples=["exhaustion"],
     )
@@ -77,10 +78,7 @@ class MatchAnswer(Answer):
         description="optimal: certified to the asked gap; inaccurate: to a larger one, which is reported",
         examples=["optimal"],
     )
-    status_reason: str = Field(
-        description="why the status is what it is, in a sentence",
-        examples=["The gap to the proven lower bound is within the asked one, and every limit is kept."],
-    )
+    status_reason: StatusReason
     assignments: tuple[Assignment, ...] = Field(
         description="parts on rows, class by class, the nuts last", examples=[[{"throw": 0, "row": 0}]]
     )

@@ -123,8 +123,9 @@ class MatchRequest(Ruled):
     )
     choose_counterweights: Flag = Field(
         False,
-        description="choose the counterweights together with the parts, within their limits: of any mass, from a"
-        " catalogue, at least so heavy, equal or cut from plates, as the machine says; else these fields play no part",
+        description="choose the counterweights together with the parts, within their limits. They are of any mass,"
+        " from a catalogue, at least so heavy, equal or cut from plates, as the machine states. Else these fields play"
+        " no part",
         examples=[False],
     )
     objective: Objective = Field(

@@ -113,9 +113,9 @@ class CompressionStage(Ruled):
     )
     suction_pressure_loss: Loss | None = Field(
         None,
-        description="relative pressure loss at suction, for air at a mean piston speed of 3.5 m/s; "
-        "null reads it off suction_loss_curve, without which it is the power law through the readings in the design "
-        "calculation of the 2D12-90/2-20 compressor",
+        description="relative pressure loss at suction, for air at a mean piston speed of 3.5 m/s. Null reads it off"
+        " suction_loss_curve. Without that curve it is the power law through the readings in the design calculation of"
+        " the 2D12-90/2-20 compressor",
         examples=[0.036],
     )
     discharge_pressure_loss: Loss | None = Field(

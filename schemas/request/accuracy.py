@@ -75,8 +75,8 @@ class AccuracyRow(Model):
         examples=[2e-3],
     )
     claim_error: float | None = Field(
-        description="how far the objective that the method itself sees lies from that of its counterweights, over "
-        "the objective without counterweights; negative where it promises too much; null where it is not shown",
+        description="how far the objective that the method itself sees lies from that of its counterweights, over the"
+        " objective without counterweights. Negative where it promises too much; null where it is not shown",
         examples=[-3.8e-3],
     )
     excess: float | None = Field(

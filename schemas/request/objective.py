@@ -46,7 +46,7 @@ class Priority(Model):
     allowance: Fraction = Field(
         0.0,
         description="what the goals after it may use of it, as a share of its value without counterweights, at least"
-        " 1e-6; of mass, pieces and sizes as a share of what they come to",
+        " 1e-6. Of mass, pieces and sizes it is a share of what they come to",
         examples=[0.001],
     )
 

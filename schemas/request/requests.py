@@ -93,9 +93,9 @@ class OptimizeRequest(Scene, Ruled):
     scenarios: tuple[Scenario, ...] = Field(
         (),
         max_length=MAX_SCENARIOS,
-        description="operating points, loads or variants that the counterweights are to suit: the largest weighted"
-        " objective of all counts, and ceilings hold in each; the machine as it is given counts only where it is"
-        " listed, with no changes",
+        description="operating points, loads or variants that the counterweights are to suit. The largest weighted"
+        " objective of all counts, and ceilings hold in each. The unchanged machine counts only where it is listed,"
+        " with no changes",
         examples=[[{"name": "overspeed", "changes": [{"path": "/machine/speed_rpm", "value": 600}]}]],
     )
     tolerances: Tolerances | None = Field(

@@ -6,7 +6,7 @@ from typing import Annotated
 from pydantic import Field
 
 from schemas.answer.answers import OptimizeAnswer
-from schemas.answer.counterweights import Counterweight, FittedShaft
+from schemas.answer.counterweights import ShaftsMass, ShaftUnbalances, WebCounterweights
 from schemas.base.model import Model
 from schemas.base.quantities import Kilograms, Name
 from schemas.base.rules import Rule, Ruled
@@ -56,15 +56,9 @@ class Weights(Model):
     total_mass_kg: Kilograms = Field(
         description="total mass on the crankshaft, fixed counterweights included", examples=[85.75]
     )
-    counterweights: tuple[Counterweight, ...] = Field(
-        description="one for each web, in the machine's order", examples=[[]]
-    )
-    balance_shafts: tuple[FittedShaft, ...] = Field(
-        (), description="unbalances of the balance shafts, in their order", examples=[[]]
-    )
-    balance_shafts_mass_kg: Kilograms | None = Field(
-        None, description="total mass of these; null where there are none", examples=[None]
-    )
+    counterweights: WebCounterweights
+    balance_shafts: ShaftUnbalances = ()
+    balance_shafts_mass_kg: ShaftsMass = None
 
 
 class StepRise(Model):

@@ -40,7 +40,7 @@ class Scenario(Model):
     changes: tuple[Change, ...] = Field(
         (),
         max_length=MAX_CHANGES,
-        description="what differs from the machine as it is given; empty is that machine",
+        description="what differs from the unchanged machine; empty is that machine",
         examples=[[{"path": "/machine/speed_rpm", "value": 600}]],
     )
 

@@ -30,8 +30,8 @@ class Claim(Model):
         examples=["held"],
     )
     margin: float | None = Field(
-        description="room that is left until the claim is broken, as a share of what it is measured by; below 0 where"
-        " it is broken, null where there is no number to it",
+        description="room that is left until the claim is broken, as a share of what it is measured by. It is below 0"
+        " where the claim is broken, null where there is no number to it",
         examples=[1e-13],
     )
     where: str = Field(description="JSON pointer (RFC 6901) of the field", examples=["/answer/certificate/lower_bound"])

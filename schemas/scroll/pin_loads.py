@@ -23,7 +23,7 @@ from schemas.scroll.losses import LossComparison, Losses
 from schemas.scroll.over_turn import ForceOverTurn, PinRadius, TorqueOverTurn
 
 MAX_PINS = 1000
-MAX_NAMED_PINS = 200
+MAX_PLACES = 200
 MAX_LOADS = 1_000_000
 MAX_LOADS_WITH_CLEARANCE = 50_000
 
@@ -67,7 +67,7 @@ class PinLoadsRequest(Ruled):
     pin_circle_radius_m: Annotated[PinRadius | None, Unit("m")] = Field(
         None, description="radius of the circle through evenly spaced pins", examples=[0.05]
     )
-    pins: Annotated[tuple[Pin, ...], Field(max_length=MAX_NAMED_PINS), NotEmpty()] | None = Field(
+    pins: Annotated[tuple[Pin, ...], Field(max_length=MAX_PLACES), NotEmpty()] | None = Field(
         None,
         description="any pattern of pins, in place of evenly spaced ones",
         examples=[[{"angle_deg": angle, "radius_m": 0.05} for angle in (0, 110, 250)]],

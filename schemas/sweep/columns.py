@@ -45,7 +45,7 @@ PRICE = {
         "nominal_objective",
         "number",
         None,
-        "objective of the counterweights on the machine as it is given, nothing off",
+        "objective of the counterweights on the unchanged machine, nothing off",
     ),
     "nominal_optimum": Column(
         "nominal_optimum", "number", None, "smallest objective of that machine, nothing off; null if it was not found"

@@ -1,7 +1,8 @@
 """Orders of the crank angles along a shaft, and which of them are the same machine.
 
-A machine is the same when all cranks are turned alike (only the moment changes at which it is looked at), seen in a
-mirror along the shaft (its rows are those of the image, and it turns the other way), and seen from its other end.
+A machine is the same when all cranks are turned by one angle: only the moment changes at which it is looked at. It is
+the same in a mirror along the shaft, where its rows are those of the image and it turns the other way. It is the same
+seen from its other end.
 """
 
 from collections import Counter
@@ -19,7 +20,7 @@ from schemas.machine.throws import Row, row_cylinders
 _NEAR = 1e-9
 #: different sequences of angles that are looked through
 MAX_SEQUENCES = 4_000_000
-MAX_ORDERED = 16
+MAX_ANGLES = 16
 
 
 class Symmetry(NamedTuple):

@@ -19,7 +19,7 @@ from schemas.request.requests import AnalyzeRequest, OptimizeRequest
 from schemas.sweep.alone import MAX_SEARCHED, alone_problems, searched, separate
 from schemas.sweep.axes import MAX_DESIGNS, Axis
 from schemas.sweep.columns import MULTIPLIERS, result_columns
-from schemas.sweep.crank_orders import MAX_ORDERED, MAX_SEQUENCES, CrankOrders, crank_orders
+from schemas.sweep.crank_orders import MAX_ANGLES, MAX_SEQUENCES, CrankOrders, crank_orders
 from schemas.sweep.details import key
 
 MAX_AXES = 64
@@ -95,8 +95,8 @@ class SweepRequest(Ruled):
     )
     details: Flag = Field(
         False,
-        description="every column in detail comes along: by bearing, row and load case, what single answers have beside"
-        " the usual columns; otherwise only those that are named in columns, top or pareto",
+        description="every column in detail comes along. It has, by bearing, row and load case, what single answers"
+        " have beside the usual columns. Otherwise only those that are named in columns, top or pareto",
         examples=[False],
     )
     multipliers: Flag = Field(
@@ -234,8 +234,8 @@ class SweepRequest(Ruled):
             yield FieldProblem(("base", "machine", "kind"), "crank_orders need a machine with throws")
         elif angles is None or len(angles) != len(machine.throws):
             yield FieldProblem(("angles_deg",), f"give one angle for each of the {len(machine.throws)} throws")
-        elif len(angles) > MAX_ORDERED:
-            yield FieldProblem(("angles_deg",), f"at most {MAX_ORDERED} throws are put in order")
+        elif len(angles) > MAX_ANGLES:
+            yield FieldProblem(("angles_deg",), f"at most {MAX_ANGLES} throws are put in order")
         else:
             fitted = isinstance(self.base, AnalyzeRequest) and bool(self.base.counterweights)
             orders = crank_orders(machine, angles, self._alike_across, fitted, self._changes_parts)

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
 _INTERRUPTED = 130
 _POLL_S = 0.1
-_SHOWN = 5
+_FIRST_ROWS = 5
 #: an interrupted sweep has one key in its folder: another request there is refused
 _KEY = "sweep"
 #: the folder is one's own: what is in it stays, and may be large
@@ -259,10 +259,10 @@ def _best(desk: "OwnerJobs", job: "Job", request: "SweepRequest") -> "tuple[pa.T
 
     schema = desk.schema(job)
     if job.selects:
-        return pa.Table.from_batches(desk.selection(job, schema, 0, _SHOWN).batches, schema), "First rows"
+        return pa.Table.from_batches(desk.selection(job, schema, 0, _FIRST_ROWS).batches, schema), "First rows"
     if "force_peak_N" not in schema.names:
         return schema.empty_table(), ""
-    top = Top(TopFilter(by="force_peak_N", count=_SHOWN), schema)
+    top = Top(TopFilter(by="force_peak_N", count=_FIRST_ROWS), schema)
     for batch in desk.rows(job, schema).batches:
         top.add(pa.Table.from_batches([batch]))
     return top.table(), "Smallest peak force"

@@ -24,7 +24,7 @@ class Document:
         return self.model.model_json_schema(mode=self.mode)
 
 
-_OTHERS = {
+_DOCUMENTS = {
     "sweep": Document(SweepRequest, "validation", "request of /v1/sweeps"),
     "sweep-state": Document(SweepState, "serialization", "answer of /v1/sweeps and /v1/sweeps/{id}"),
     "sweep-estimate": Document(SweepEstimate, "serialization", "answer of /v1/sweeps with dry_run"),
@@ -35,7 +35,7 @@ _OTHERS = {
 
 def documents() -> Mapping[str, Document]:
     """Requests and answers of all computations, and the others."""
-    return {**dict(_of_computations()), **_OTHERS}
+    return {**dict(_of_computations()), **_DOCUMENTS}
 
 
 def _of_computations() -> Iterator[tuple[str, Document]]:

@@ -86,9 +86,9 @@ class Turn:
 class FairQueue:
     """So many turns at a time, and some above them for owners who have none, and had little lately.
 
-    Next is the owner who has had turns for the least time, each in the order of its calls; but nobody waits for
-    ever, however many come who have had nothing. When as many wait as may, the owner of whom most wait gives up its
-    last place to one of whom fewer wait.
+    Next is the owner who has had turns for the least time, each in the order of its calls. But nobody waits for ever,
+    however many come who have had nothing. When as many wait as may, the owner of whom most wait gives up its last
+    place to one of whom fewer wait.
 
     Little is at most half of an equal share of the cores that turns are for, among all owners who have a turn or wait.
     For at least half of the time, the owner had no turn and waited for one at most. On a full machine, owners who ask
@@ -109,7 +109,7 @@ class FairQueue:
         self._places = places
         self._clock = clock
         self._accounts, self._loads = Accounts(clock), Loads(clock)
-        # share of the last seconds in which owners had a turn or waited for several, and who does now: one that waits
+        # share of the last seconds in which owners had a turn or waited for several, and who does now. One that waits
         # once is no pressure, else it would wait ever longer
         self._pressure = Loads(clock)
         self._pressing: set[str] = set()

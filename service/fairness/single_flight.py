@@ -13,9 +13,9 @@ from service.fairness.quotas import holding
 from service.fairness.table import ANY, LOOKS
 
 Result = TypeVar("Result")
-#: after a look its client takes none for so many times what it computed; and, if it waits again, for as many times what
-#: it took for each other client that waits. Looks compute in the process of the event loop: all of them together must
-#: leave it most of its time, and leave a thread to whoever looks now and then
+#: after a look its client takes none for so many times what it computed. If it waits again, it takes none for as many
+#: times what it took for each other client that waits. Looks compute in the process of the event loop: all of them
+#: together must leave it most of its time, and leave a thread to whoever looks now and then
 _REST = 3.0
 
 

@@ -15,7 +15,7 @@ from service.common.validation import InvalidRequest
 from service.settings import Settings
 
 #: what says how many designs there are, where it is not the axes
-_COUNTED = {"latin_hypercube": "samples", "crank_orders": "angles_deg"}
+_COUNT_FIELDS = {"latin_hypercube": "samples", "crank_orders": "angles_deg"}
 
 
 @dataclass(frozen=True)
@@ -53,7 +53,7 @@ class SizeLimits:
     def _problems(self, request: Model, at: Path) -> Iterator[FieldProblem]:
         if isinstance(request, SweepRequest):
             if request.total > self.designs:
-                field = (_COUNTED.get(request.design, "axes"),)
+                field = (_COUNT_FIELDS.get(request.design, "axes"),)
                 message = f"a sweep may hold at most {self.designs} designs here; these are {request.total}"
                 yield FieldProblem(field, message)
             yield from self._problems(request.base, ("base",))

@@ -6,7 +6,7 @@ import json
 from service.jobs.job import Order
 
 #: how a fingerprint is made. The column takes 64 characters, so 62 digits of the digest are left
-_MADE = "2:"
+_SCHEME = "2:"
 _DIGITS = 62
 
 
@@ -18,7 +18,7 @@ def fingerprint(kind: str, sent: bytes) -> str:
     """
     body = json.loads(sent.decode("utf-8-sig"), parse_float=_number)
     text = json.dumps([kind, body], sort_keys=True, separators=(",", ":"))
-    return _MADE + hashlib.sha256(text.encode()).hexdigest()[:_DIGITS]
+    return _SCHEME + hashlib.sha256(text.encode()).hexdigest()[:_DIGITS]
 
 
 def _number(text: str) -> int | float:
@@ -32,7 +32,7 @@ def same(order: Order, earlier: str, request: bytes) -> bool:
     Fingerprints of earlier versions hold the defaults that there were then. In their place the stored request, in which
     all of these stand, is read as one of today.
     """
-    if earlier.startswith(_MADE):
+    if earlier.startswith(_SCHEME):
         return earlier == order.fingerprint
     return _read_again(order.kind, request) == json.loads(order.request)
 

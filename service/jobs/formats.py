@@ -16,8 +16,8 @@ if TYPE_CHECKING:
 Name = Literal["ndjson", "csv", "parquet", "arrow", "xlsx"]
 Batches = Iterable["pa.RecordBatch"]
 
-#: of rows that are written together, before they are compressed: at least so many, or a share of those before, which
-#: keeps what is said of the groups small, and at most so many, as they are held in memory
+#: of rows that are written together, before they are compressed. There are at least so many, or a share of those
+#: before, which keeps the statistics of the groups small. There are at most so many, as they are held in memory
 _GROUP_BYTES, _SHARE, _LARGEST = 1_000_000, 1 / 64, 16_000_000
 
 

@@ -95,7 +95,7 @@ class Chunk:
 @dataclass(frozen=True)
 class Computed:
     """A chunk whose file is on disk: rows without a certified answer, digest and size of the file, rows of invalid
-    designs, and of those without an answer the proven infeasible ones."""
+    designs. Of the rows without an answer it has the proven infeasible ones."""
 
     chunk: Chunk
     failed: int

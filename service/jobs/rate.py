@@ -4,7 +4,7 @@ from collections.abc import Callable, Sequence
 from functools import lru_cache
 from itertools import pairwise
 
-#: chunks take a second or two: between two of a job that is computed, no time is as long as this, nor as so many times
+#: chunks take a second or two. Between two of a job that is computed, no time is as long as this, nor as so many times
 #: nine in ten of the others [s]
 _OUTAGE_S = 10.0
 _LONGEST = 5.0

@@ -1,7 +1,8 @@
 """The scheme of the balancing stages: the layout, and on it the directions of forces and the planes of moments.
 
-The slides on balancing draw each of the stages I to VI so before they write its formula: the layout, the directions on
-it, what counterweights can do, and what is left. Stage VII shows the counterweights, stage VIII what is left of all.
+The slides on balancing draw each of the stages I to VI so before they write its formula. They show the layout, the
+directions on it, what counterweights can do, and what is left. Stage VII shows the counterweights, stage VIII what is
+left of all.
 """
 
 import math

@@ -18,8 +18,8 @@ _LARGE_BYTES = 131_072
 _HEAPS = 2
 #: between two times [s]: the longer, the less there was to give back [bytes]
 _SHORT_S, _LONG_S = 10.0, 30.0
-#: each stops the service for a tenth of a second, and so waits for a time [s] in which it computes for a share at most;
-#: but no longer than that [s]
+#: each stops the service for a tenth of a second, and so waits for a time [s] in which it computes for a share at most.
+#: It waits no longer than that [s]
 _LOOK_S, _CALM, _PATIENCE_S = 1.0, 0.2, 300.0
 _MUCH_BYTES = 4_000_000
 _PAGE_BYTES = resource.getpagesize()

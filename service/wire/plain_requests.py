@@ -1,7 +1,8 @@
 """Requests as nearly every client sends them, read and answered without h11, whose generality is a fifth of the work.
 
-What has anything unusual about it is none of these: no HTTP/1.1, a body in chunks, a client that waits for a word to
-go on, a repeated length, letters beside US-ASCII, a head that comes in pieces. h11 reads it, or refuses it.
+What has anything unusual about it is none of these. Unusual are no HTTP/1.1, a body in chunks, a client that waits for
+a word to go on, a repeated length. So are letters beside US-ASCII and a head that comes in pieces. h11 reads it, or
+refuses it.
 """
 
 import re

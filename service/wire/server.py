@@ -27,7 +27,7 @@ _OTHER_FILES = 128
 _BACKLOG = 2048
 #: a thread that computes gives way to the event loop after so long; five times as long by default
 _SWITCH_S = 0.001
-#: new objects before a collection of the youngest garbage, which are fewer than of a command that computes once;
+#: new objects before a collection of the youngest garbage, which are fewer than of a command that computes once. Then
 #: collections of the youngest garbage before one of what is older, and of those before a full one. For each everything
 #: stops: 5 ms with a thousand connections after ten of the youngest, as by default, and 0.1 s for a full one. A request
 #: leaves nothing for it
@@ -44,8 +44,8 @@ def listen(settings: Settings) -> socket.socket:
     """
     family = socket.AF_INET6 if ":" in settings.host else socket.AF_INET
     listening = socket.create_server((settings.host, settings.port), family=family, backlog=_BACKLOG)
-    # inherited by every connection. The event loop sets it only where a socket names its protocol, which these do not;
-    # without it an answer on a kept connection waits 40 ms for the client's delayed acknowledgement
+    # inherited by every connection. The event loop sets it only where a socket names its protocol, which these do not.
+    # Without it an answer on a kept connection waits 40 ms for the client's delayed acknowledgement
     listening.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
     return listening
 

@@ -40,7 +40,7 @@ _MOST_JSON = 500_000
 _LONGEST_FIELD, _DEEPEST = 200, 16
 _LONGEST_TITLE = 31
 #: wrong cells that are named
-_MOST_NAMED = 100
+_MOST_NAMES = 100
 
 
 class Misplaced(ValueError):
@@ -156,7 +156,7 @@ class _Reader:
 
     def _refuse(self, line: str) -> None:
         self.wrong.append(line)
-        if len(self.wrong) > _MOST_NAMED:
+        if len(self.wrong) > _MOST_NAMES:
             raise Misplaced(self.wrong)
 
     def fields(self, lines: Sequence[Sequence[Cell]]) -> None:
@@ -266,7 +266,7 @@ class _Reader:
         if not isinstance(throw, int | float) or throw not in range(len(throws)):
             names = _throw_names(throws)
             numbers = f"the number of its throw, from 0 to {len(throws) - 1}"
-            message = numbers if names is None else f"the name of its throw: {', '.join(names[:_MOST_NAMED])}"
+            message = numbers if names is None else f"the name of its throw: {', '.join(names[:_MOST_NAMES])}"
             message = message if throws else "there are no throws"
             self._refuse(f"{sheet}, line {number}: {_THROW}: {message}")
             return None

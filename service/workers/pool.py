@@ -62,8 +62,8 @@ class Pool:
     """So many computations at a time, each in a process.
 
     Long ones (:mod:`service.fairness.length`) have turns of their own, half as many and one at least, and so they have
-    processes of their own. What turns out to be long goes on in a turn of the long ones if there is one; else it goes
-    on in its own until somebody waits for that, and is then begun anew when it has one.
+    processes of their own. What turns out to be long goes on in a turn of the long ones if there is one. Else it goes
+    on in its own until somebody waits for that. It is then begun anew when it has one.
 
     Parameters
     ----------

@@ -1,7 +1,7 @@
 """Imported by the process that workers are forked from: loads what most answers need, and solves a machine once.
 
-What few requests need is loaded by their worker: the modelling layer, workbooks, pages and studies take
-longer than all else together, and a service would be ready so much later.
+What few requests need is loaded by their worker. The modelling layer, workbooks, pages and studies take longer than all
+else together, and a service would be ready so much later.
 """
 
 import os

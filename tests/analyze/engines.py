@@ -48,7 +48,7 @@ def cylinder(head: dict[str, Any], turns: int = 2, **pressure: Any) -> dict[str,
 def engine(firing_deg: Sequence[float], cylinders: Sequence[dict[str, Any]] | None = None, **rest: Any) -> Any:
     """An in-line engine whose cylinders fire at these shaft angles."""
     actual_cylinders = (
-        [cylinder(trace(), dead_centre_deg=value % 720.0) for value in firing_deg] if cylinders is None else cylinders
+        [cylinder(trace(), dead_centre_deg=angle % 720.0) for angle in firing_deg] if cylinders is None else cylinders
     )
     sense = -1.0 if rest.get("rotation") == "cw" else 1.0
     count = len(firing_deg)

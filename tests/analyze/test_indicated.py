@@ -65,7 +65,7 @@ def halves() -> tuple[dict[str, Any], dict[str, Any]]:
     """A machine with traces of one turn, and the same with two equal halves of a cycle of two turns."""
     once = trace(7.5, 1)
     twice = {
-        "angle_deg": [*once["angle_deg"], *(360.0 + value for value in once["angle_deg"][1:])],
+        "angle_deg": [*once["angle_deg"], *(360.0 + angle for angle in once["angle_deg"][1:])],
         "pressure_Pa": [*once["pressure_Pa"], *once["pressure_Pa"][1:]],
     }
     first, second = ([cylinder(fields, turns) for _ in range(2)] for fields, turns in ((once, 1), (twice, 2)))
@@ -143,7 +143,7 @@ def test_a_trace_that_samples_a_cycle_gives_what_the_cycle_gives() -> None:
     off = []
     for step in (2.0, 0.5):
         actual_summary = summary(ask(cycle_as_trace(body, step), "gas", *LOADS, "flywheel"))
-        off.append(max(abs(actual_summary[name] - value) / abs(value) for name, value in exact.items() if value))
+        off.append(max(abs(actual_summary[name] - figure) / abs(figure) for name, figure in exact.items() if figure))
     # linear between the entries: the error falls with the square of the step
     assert off[1] < 2e-4
     assert off[1] < 0.2 * off[0]
@@ -318,7 +318,7 @@ def test_only_what_the_sides_without_a_pressure_need_is_asked_for() -> None:
 def test_more_entries_than_can_be_worked_on_are_refused() -> None:
     firing = [0.01 * k for k in range(40)]
     fine = trace(1.0)
-    body = engine(firing, [cylinder(fine, dead_centre_deg=value) for value in firing])
+    body = engine(firing, [cylinder(fine, dead_centre_deg=angle) for angle in firing])
     assert "at most 200000" in omissions(body, "gas")["machine/throws/0/rows/0/cylinder/pressure"]
     # the same entries on all rows are as many as on one
     ask(engine([0.0] * 40, [cylinder(fine) for _ in firing]), "gas", step_deg=30.0)

@@ -30,7 +30,7 @@ def test_brackets_are_closed_and_above_all_samples(hard: Hard) -> None:
             (np.array(loads.rod_N), loads.cases[0].tension_bracket_N, size),
             (np.abs(loads.side_N), loads.peak_side_bracket_N, size),
             (total, piston.peak_tension_bracket_N, size),
-            (-total, tuple(-value for value in piston.peak_compression_bracket_N[::-1]), size),
+            (-total, tuple(-end for end in piston.peak_compression_bracket_N[::-1]), size),
         ]
     assert "peak_not_closed" not in [caution.code for caution in answer.warnings]
     for samples, (low, high), size in brackets:

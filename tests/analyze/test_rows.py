@@ -122,14 +122,14 @@ def test_series_stand_over_the_sampled_angles() -> None:
     np.testing.assert_allclose(answer.kinematics.angle_deg, angles, rtol=1e-15)
     moving = motion(layout(ReciprocatingMachine.model_validate(body)), np.deg2rad(angles))
     for k, (row, force) in enumerate(zip(answer.kinematics.rows, answer.piston_force.rows, strict=True)):
-        assert all(0.0 <= value <= 360.0 for value in row.crank_angle_deg)
+        assert all(0.0 <= angle <= 360.0 for angle in row.crank_angle_deg)
         np.testing.assert_allclose(row.velocity_m_s, moving.velocity[k], rtol=1e-12, atol=1e-12)
         total = np.array(force.gas_N) + force.inertia_N + force.friction_N
         np.testing.assert_allclose(force.total_N, total, rtol=1e-13)
         # the extremes of the turn, not of the samples
         assert max(force.total_N) <= force.peak_tension_bracket_N[1]
         assert min(force.total_N) >= force.peak_compression_bracket_N[0]
-    assert max(abs(value) for value in answer.overturning.couple_Nm) <= answer.overturning.peak_bracket_Nm[1]
+    assert max(abs(couple) for couple in answer.overturning.couple_Nm) <= answer.overturning.peak_bracket_Nm[1]
 
 
 def test_load_cases() -> None:
@@ -148,7 +148,7 @@ def test_load_cases() -> None:
             size = np.abs(expected[case.case]).max()
             for tension_N, (low, high), sampled in (
                 (case.tension_N, case.tension_bracket_N, max(expected[case.case].max(), 0.0)),
-                (-case.compression_N, tuple(-value for value in case.compression_bracket_N[::-1]),
+                (-case.compression_N, tuple(-end for end in case.compression_bracket_N[::-1]),
                  max(-expected[case.case].min(), 0.0)),
             ):  # fmt: skip
                 assert low <= tension_N <= high <= low + 1e-8 * size

@@ -94,9 +94,9 @@ def theirs(request: AccuracyRequest) -> Iterator[Row]:
             mass, _ = held.fitted(answers.selection)
             pieces = int(np.sum(mass > 0.0))
             assert part_numbers(mass) <= pieces
-            value = float(program.objective(held.options.carried(answers.selection))) * square
-            yield Row(name, f"{limit:g} s", seconds, value, bound, float(np.sum(mass)), pieces)
-            if bound is not None and value - bound <= _GAP * size * square:
+            objective = float(program.objective(held.options.carried(answers.selection))) * square
+            yield Row(name, f"{limit:g} s", seconds, objective, bound, float(np.sum(mass)), pieces)
+            if bound is not None and objective - bound <= _GAP * size * square:
                 break
 
 
@@ -140,8 +140,8 @@ def table(name: str) -> str:
     return "\n".join(lines)
 
 
-def _figure(value: float | None, form: str) -> str:
-    return "-" if value is None else form.format(value)
+def _figure(figure: float | None, form: str) -> str:
+    return "-" if figure is None else form.format(figure)
 
 
 def main() -> None:

@@ -163,7 +163,7 @@ def main() -> None:
         print("httptools is not installed: NOT MEASURED")
     for clients in (1, 16):
         measurement = measure(names, clients, arguments.requests, arguments.turns)
-        print(f"{clients} clients [us]:", "; ".join(f"{name} {value:.0f}" for name, value in measurement.items()))
+        print(f"{clients} clients [us]:", "; ".join(f"{name} {time_us:.0f}" for name, time_us in measurement.items()))
 
 
 if __name__ == "__main__":

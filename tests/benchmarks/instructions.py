@@ -159,13 +159,13 @@ def table(case: str, costs: dict[str, Cost]) -> Table:
         figures.add_column(heading, justify="left" if heading == "" else "right")
     whole = Cost()
     for cost in costs.values():
-        for name, value in vars(cost).items():
-            setattr(whole, name, getattr(whole, name) + value)
-    ordered = sorted(costs.items(), key=lambda entry: -entry[1].instructions)
+        for name, count in vars(cost).items():
+            setattr(whole, name, getattr(whole, name) + count)
+    ordered = sorted(costs.items(), key=lambda pair: -pair[1].instructions)
     large = [(library, cost) for library, cost in ordered if cost.instructions > 0.01 * total]
     for library, cost in [*large, ("all", whole)]:
         name = "compiled kernels" if library in ("", "???") else library
-        figures.add_row(name, *(f"{value / 1e3:,.1f}" for value in vars(cost).values()))
+        figures.add_row(name, *(f"{count / 1e3:,.1f}" for count in vars(cost).values()))
     return figures
 
 

@@ -1,7 +1,7 @@
 """Counterweights of lattices and catalogues to a hundredth, a thousandth and a ten thousandth, beside SCIP and HiGHS.
 
 ``python -m tests.benchmarks.lattices [--limit 60]`` prints seconds of the processor and the gap at their end, of each
-solver and gap. SCIP has cones. HiGHS has none: lengths are those of a polygon of 128 sides about the circle, which is
+solver and gap. SCIP has cones. HiGHS has none: lengths are those of a polygon of 128 sides about the circle. It is
 short by 3e-4 at most, so that its objective is a little less than that of its set. Gaps are shares of the objective
 without counterweights.
 """
@@ -99,9 +99,9 @@ def highs(statement: Statement, options: Options, relative_gap: float, yardstick
         cost, integrality=whole, bounds=bounds, constraints=LinearConstraint(left.tocsr(), low, high),
         options={"time_limit": time_limit_s, "mip_rel_gap": relative_gap},
     )  # fmt: skip
-    value = np.nan if solution.fun is None else solution.fun * yardstick
+    objective = np.nan if solution.fun is None else solution.fun * yardstick
     bound = -np.inf if solution.mip_dual_bound is None else solution.mip_dual_bound * yardstick
-    return Chosen(value, bound, int(solution.mip_node_count or 0))
+    return Chosen(objective, bound, int(solution.mip_node_count or 0))
 
 
 def ours(body: dict[str, Any], gap: float, limit_s: float) -> tuple[Ended, float, float]:
@@ -123,8 +123,8 @@ def main(limit_s: float) -> None:
         program, options = free.program.subset(0), stock(request.machine).options
         ours(body, GAPS[0], limit_s)
         for gap in GAPS:
-            here, value, mass = ours(body, gap, limit_s)
-            print(f"  {gap:.0e}  ours  {here}, objective {value:.5f}, {mass:.1f} kg", flush=True)
+            here, objective, mass = ours(body, gap, limit_s)
+            print(f"  {gap:.0e}  ours  {here}, objective {objective:.5f}, {mass:.1f} kg", flush=True)
         for label, solver, most in (("SCIP ", scip, _OF_CONES), ("HiGHS", highs, _OF_POLYGONS)):
             if np.sum(options.exists) > most:
                 print(f"         {label} is not asked: more than {most} options")

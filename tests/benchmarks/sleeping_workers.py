@@ -1,7 +1,7 @@
 """What one service can give out and take in: its own coordinator, database and files under workers that only sleep.
 
 ``python -m tests.benchmarks.sleeping_workers``; by hand. Workers that sleep cost no core, so two cores stand for a
-thousand: what is measured is the service, how many pieces a second it hands out, takes in and has on disk, and what of
+thousand. What is measured is the service: how many pieces a second it hands out, takes in and has on disk, and what of
 a core that takes. Pieces are of random bytes, as many as one likes.
 """
 

@@ -3,8 +3,8 @@ in batches, C that is generated for the program, and ours.
 
 ``python -m tests.benchmarks.sweep``; part of `make bench`. The methods take turns, so that a slow moment of the
 machine meets them all, and what counts is CPU time, as others may use it too. The others get the formulated program of
-each design as matrices for nothing, prove nothing and write nothing; ours is timed from the request to the bytes of
-the Parquet file, certificates included.
+each design as matrices for nothing, prove nothing and write nothing. Ours is timed from the request to the bytes of the
+Parquet file, certificates included.
 """
 
 from tests.benchmarks.single_core import pin, single_thread
@@ -112,8 +112,8 @@ def _count(rate: Rate, seconds: float, warm: bool) -> None:
         rate.seconds.append(seconds)
 
 
-def _worst(value: Gaps, chosen: Sequence[Program], levels: Sequence[Stages]) -> Gaps:
-    all_gaps = [value, *(gaps(program, stages) for program, stages in zip(chosen, levels, strict=True))]
+def _worst(largest: Gaps, chosen: Sequence[Program], levels: Sequence[Stages]) -> Gaps:
+    all_gaps = [largest, *(gaps(program, stages) for program, stages in zip(chosen, levels, strict=True))]
     return Gaps(max(gap.objective for gap in all_gaps), max(gap.mass for gap in all_gaps))
 
 
@@ -145,7 +145,7 @@ def show(console: Console, request: SweepRequest, rates: dict[str, Rate], rows: 
         )
     console.print(table)
     status, method = rows["status"].to_pylist(), rows["method"].to_pylist()
-    referred = sum(value != INTERIOR_POINT for value in method)
+    referred = sum(name != INTERIOR_POINT for name in method)
     console.print(
         f"certified: {status.count('optimal')} of {len(status)}; by the reference solver: {referred} "
         f"({referred / len(status):.3%}); a counterweight at its limit in {at_limits(request, rows):.0%} of the designs"

@@ -80,11 +80,11 @@ class Compiled:
         """Variables, multipliers and objectives of programs by their data (n, ...); so many are ``unsolved``."""
         count, (rows, columns) = len(values), self._shape
         assert values.shape == (count, self._nonzero)
-        x, z, value = np.empty((count, columns)), np.empty((count, rows)), np.empty(count)
-        every = [np.ascontiguousarray(np.broadcast_to(cost, (count, columns))), values, sides, x, z, value]
+        x, z, objective = np.empty((count, columns)), np.empty((count, rows)), np.empty(count)
+        every = [np.ascontiguousarray(np.broadcast_to(cost, (count, columns))), values, sides, x, z, objective]
         pointers: list[Any] = [values.ctypes.data_as(ctypes.POINTER(ctypes.c_double)) for values in every]
         self.unsolved = int(self._library.solve_all(count, ctypes.c_double(_TOLERANCE), *pointers))
-        return x, z, value
+        return x, z, objective
 
 
 class Generated:
@@ -95,9 +95,9 @@ class Generated:
         self._terms, self._webs = programs[0].influence.shape
         direct = Direct(programs[0])
         prepared = [direct.prepare(program) for program in programs]
-        self._values = [np.stack(values) for values in zip(*(entry.values for entry in prepared), strict=True)]
-        self._sides = [np.stack(sides) for sides in zip(*(entry.sides for entry in prepared), strict=True)]
-        self._costs = direct.first_cost, np.stack([entry.mass for entry in prepared])
+        self._values = [np.stack(values) for values in zip(*(stages.values for stages in prepared), strict=True)]
+        self._sides = [np.stack(sides) for sides in zip(*(stages.sides for stages in prepared), strict=True)]
+        self._costs = direct.first_cost, np.stack([stages.mass for stages in prepared])
         planes = self._webs + self._terms
         first, second = direct.matrices(programs[0])
         self._first = Compiled(self._costs[0], first, self._sides[0][0], 0, planes)
@@ -111,9 +111,9 @@ class Generated:
         ArithmeticError
             if one of them is left unsolved.
         """
-        x, z, value = self._first.solve(self._costs[0], self._values[0], self._sides[0])
+        x, z, objective = self._first.solve(self._costs[0], self._values[0], self._sides[0])
         self._sides[1][:, self._webs] = [
-            target(value, program) for value, program in zip(value, self._programs, strict=True)
+            target(optimum, program) for optimum, program in zip(objective, self._programs, strict=True)
         ]
         x2, z2, _ = self._second.solve(self._costs[1], self._values[1], self._sides[1])
         if unsolved := self._first.unsolved + self._second.unsolved:

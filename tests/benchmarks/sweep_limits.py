@@ -134,7 +134,10 @@ class Direct:
         second.update(q=two.cost, A=two.matrix.data, b=two.side)
         pair = smallest, second.solve()
         return stages_of(
-            program, [np.array(entry.x) for entry in pair], [np.array(entry.z) for entry in pair], two.numbers
+            program,
+            [np.array(variable.x) for variable in pair],
+            [np.array(variable.z) for variable in pair],
+            two.numbers,
         )
 
 
@@ -142,14 +145,14 @@ class Generated:
     """C for both stages, all designs in one call of each."""
 
     def __init__(self, chosen: Sequence[Program], prepared: Sequence[tuple[Stage, Stage]]) -> None:
-        self._programs, self._stages = chosen, [list(value) for value in zip(*prepared, strict=True)]
+        self._programs, self._stages = chosen, [list(level) for level in zip(*prepared, strict=True)]
         self._compiled = [
             sweep_generated.Compiled(level.cost, level.matrix, level.side, level.numbers, level.planes)
             for level in prepared[0]
         ]
-        self._values = [np.stack([entry.matrix.data for entry in level]) for level in self._stages]
-        self._sides = [np.stack([entry.side for entry in level]) for level in self._stages]
-        self._costs = [np.stack([entry.cost for entry in level]) for level in self._stages]
+        self._values = [np.stack([stage.matrix.data for stage in level]) for level in self._stages]
+        self._sides = [np.stack([stage.side for stage in level]) for level in self._stages]
+        self._costs = [np.stack([stage.cost for stage in level]) for level in self._stages]
 
     @property
     def unsolved(self) -> int:
@@ -162,7 +165,7 @@ class Generated:
             if k == 1:
                 values = solutions[0][2]
                 pairs = zip(values, self._programs, strict=True)
-                self._sides[1][:, numbers - 1] = [target(value, program) for value, program in pairs]
+                self._sides[1][:, numbers - 1] = [target(optimum, program) for optimum, program in pairs]
             solutions.append(compiled.solve(self._costs[k], self._values[k], self._sides[k]))
         every = zip(self._programs, *(solutions[k][i] for i in range(2) for k in range(2)), strict=True)
         return [stages_of(program, [x, x2], [z, z2], numbers) for program, x, x2, z, z2 in every]

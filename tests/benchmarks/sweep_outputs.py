@@ -67,7 +67,7 @@ def main() -> None:
         seconds(sweep(*axis, 2))
         best = min((seconds(request) for _ in range(arguments.turns)), key=lambda parts: sum(parts.values()))
         fields = {part: 1e3 * best.get(part, 0.0) / arguments.designs for part in (*PARTS, _ELSE)}
-        table.add_row(name, f"{sum(fields.values()):.3f}", *(f"{value:.3f}" for value in fields.values()))
+        table.add_row(name, f"{sum(fields.values()):.3f}", *(f"{time_ms:.3f}" for time_ms in fields.values()))
     Console(width=120).print(table)
 
 

@@ -68,9 +68,9 @@ def vectors_of(dual: Real) -> Complex:
     return -(dual[:, 0] + 1j * dual[:, 1])
 
 
-def target(value: float, program: Program) -> float:
+def target(objective: float, program: Program) -> float:
     """Largest value of an optimum."""
-    return value + _USED * program.share
+    return objective + _USED * program.share
 
 
 class _Built(NamedTuple):
@@ -238,8 +238,8 @@ class Batch:
         ]
         self._values = [np.stack([matrix.data for matrix in matrices]) for matrices in stages]
         prepared = [direct.prepare(program) for program in programs]
-        self._costs = np.tile(direct.first_cost, (len(programs), 1)), np.stack([entry.mass for entry in prepared])
-        self._sides = [np.stack(sides) for sides in zip(*(entry.sides for entry in prepared), strict=True)]
+        self._costs = np.tile(direct.first_cost, (len(programs), 1)), np.stack([stages.mass for stages in prepared])
+        self._sides = [np.stack(sides) for sides in zip(*(stages.sides for stages in prepared), strict=True)]
         planes = [3] * (self._webs + self._terms)
         cones = moreau.Cones(so_cone_dims=planes), moreau.Cones(num_nonneg_cones=self._webs + 1, so_cone_dims=planes)
         self._solvers = [self._compiled(matrices[0], cone) for matrices, cone in zip(stages, cones, strict=True)]
@@ -260,7 +260,7 @@ class Batch:
         smallest = self._stage(0)
         values = self._solvers[0].info.obj_val
         pairs = zip(values, self._programs, strict=True)
-        self._sides[1][:, self._webs] = [target(value, program) for value, program in pairs]
+        self._sides[1][:, self._webs] = [target(optimum, program) for optimum, program in pairs]
         lightest = self._stage(1)
         duals = [
             single_smallest.z[:, -3 * self._terms :].reshape(-1, self._terms, 3)[..., 1:]

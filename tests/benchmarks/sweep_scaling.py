@@ -2,8 +2,8 @@
 
 ``python -m tests.benchmarks.sweep_scaling``; part of `make bench`; ``--engine dask`` for a cluster of one worker and of
 two. The clock starts when the workers have computed a sweep before, so that their start and the loading of compiled
-code do not count. Beside them stand as many processes that compute the same chunks and hand them to nobody: what the
-cores of the machine gain by themselves, which is less than two where they share a physical core.
+code do not count. Beside them stand as many processes that compute the same chunks and hand them to nobody. They show
+what the cores of the machine gain by themselves, which is less than two where they share a physical core.
 """
 
 import argparse
@@ -106,7 +106,7 @@ def main() -> None:
         table.add_column(heading, justify="left" if heading == "way" else "right")
     for (way, workers), entries in taken.items():
         middle = statistics.median(entries)
-        gain = statistics.median(value / many for value, many in zip(taken[way, 1], entries, strict=True))
+        gain = statistics.median(single / many for single, many in zip(taken[way, 1], entries, strict=True))
         table.add_row(way, str(workers), f"{middle:.1f}", f"{request.total / middle:,.0f}", f"{gain:.2f}")
     Console(width=120).print(table)
 

@@ -98,8 +98,8 @@ def show(console: Console, request: SweepRequest) -> None:
     table = Table(title=f"where the time goes: {1e6 * total / request.total:.1f} us a design")
     for heading in ("part", "us a design", "share"):
         table.add_column(heading, justify="left" if heading == "part" else "right")
-    for name, value in sorted(seconds.items(), key=lambda second: -second[1]):
-        table.add_row(name, f"{1e6 * value / request.total:.2f}", f"{value / total:.1%}")
+    for name, duration in sorted(seconds.items(), key=lambda second: -second[1]):
+        table.add_row(name, f"{1e6 * duration / request.total:.2f}", f"{duration / total:.1%}")
     console.print(table)
     operations, iterations = operations_per_program(solved(request, 12))
     rate, peak = operations * request.total / both, peak_rate()

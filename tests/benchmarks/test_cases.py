@@ -24,7 +24,7 @@ def test_every_case_is_certified(build: Callable[[], bytes]) -> None:
 def test_phases_add_up() -> None:
     times = measure(next(iter(CASES.values()))())
     assert set(times) == set(PHASES)
-    parts = sum(value for name, value in times.items() if name != "total")
+    parts = sum(duration for name, duration in times.items() if name != "total")
     assert 0 < parts <= times["total"]
 
 
@@ -59,16 +59,16 @@ def test_broadcasting_case_runs() -> None:
 
 
 def test_choices_are_those_of_scip_independent() -> None:
-    value = discrete.beside(discrete.choice(6, None, masses=3), 1, 1e9)
-    assert value.ours_gap <= 1e-4
-    assert abs(value.apart) <= 2e-4
+    comparison = discrete.beside(discrete.choice(6, None, masses=3), 1, 1e9)
+    assert comparison.ours_gap <= 1e-4
+    assert abs(comparison.apart) <= 2e-4
 
 
 @pytest.mark.parametrize("cranks", part(2, [discrete.in_some_order(6), mirrored(6)]))
 def test_matches_are_those_of_scip_independent(cranks: list[float]) -> None:
-    value = discrete.matched_beside(discrete.rows_matched(cranks), 1, 1e9)
-    assert max(value.ours_gap, value.theirs_gap) <= 1e-4
-    assert abs(value.apart) <= 2e-4
+    comparison = discrete.matched_beside(discrete.rows_matched(cranks), 1, 1e9)
+    assert max(comparison.ours_gap, comparison.theirs_gap) <= 1e-4
+    assert abs(comparison.apart) <= 2e-4
 
 
 def test_what_else_is_chosen_runs() -> None:

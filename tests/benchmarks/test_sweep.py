@@ -44,7 +44,7 @@ def test_the_methods_find_the_same_mass(request_: SweepRequest) -> None:
         batches.append(sweep_generated.Generated(chosen).solve())
     for program, *of_batches in zip(chosen, *batches, strict=True):
         alone = [
-            entry.solve(program, entry.prepare(program)) for entry in (Direct(program), Direct(program, tuned=True))
+            solver.solve(program, solver.prepare(program)) for solver in (Direct(program), Direct(program, tuned=True))
         ]
         values = [rebuilt(program), Parametrised(program)(program), *alone, *of_batches]
         masses = [float(program.statement.mass(program.unbalance(stages.lightest))) for stages in values]

@@ -8,9 +8,9 @@ from tests.benchmarks.wire import Timings, measure
 @pytest.mark.nightly
 def test_every_kind_of_connection_is_measured() -> None:
     timings = {
-        (target.name, count, verdict): measure_timings for target, count, verdict, measure_timings in measure((2,), 0.1)
+        (target.name, count, lasting): measure_timings for target, count, lasting, measure_timings in measure((2,), 0.1)
     }
-    assert set(timings) == {(name, 2, value) for name in ("service", "echo") for value in (True, False)}
+    assert set(timings) == {(name, 2, lasting) for name in ("service", "echo") for lasting in (True, False)}
     for (name, _, _), timing in timings.items():
         assert len(timing.seconds) >= 2
         assert len(timing.optima_ms) == (len(timing.seconds) if name == "service" else 0)

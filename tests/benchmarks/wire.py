@@ -141,9 +141,9 @@ def measure(clients: Sequence[int], seconds: float) -> Iterator[tuple[Target, in
         for target in (ours, echo):
             asyncio.run(client_timings(target, 2, lasting=True, seconds=min(1.0, seconds)))
         for count in clients:
-            for value in (True, False):
+            for lasting in (True, False):
                 for target in (ours, echo):
-                    yield target, count, value, asyncio.run(client_timings(target, count, value, seconds))
+                    yield target, count, lasting, asyncio.run(client_timings(target, count, lasting, seconds))
 
 
 def show(console: Console, clients: Sequence[int], seconds: float) -> None:
@@ -165,9 +165,9 @@ def show(console: Console, clients: Sequence[int], seconds: float) -> None:
         table.add_column(heading, justify="left" if heading in ("", "connections") else "right")
     p50s: dict[tuple[str, int], float] = {}
     ratios = []
-    for target, count, verdict, timings in measure(clients, seconds):
+    for target, count, lasting, timings in measure(clients, seconds):
         p50, p99 = timings.quantile_ms(0.5), timings.quantile_ms(0.99)
-        if verdict:
+        if lasting:
             p50s[target.name, count] = p50
         elif target.name == "service":
             ratios.append(f"{count}: {p50s[target.name, count] / p50:.2f}")
@@ -175,9 +175,9 @@ def show(console: Console, clients: Sequence[int], seconds: float) -> None:
         table.add_row(
             target.name,
             str(count),
-            "kept" if verdict else "new",
+            "kept" if lasting else "new",
             f"{timings.per_second:.0f}",
-            *(f"{value:.2f}" for value in (p50, p99, p99 / p50)),
+            *(f"{latency:.2f}" for latency in (p50, p99, p99 / p50)),
             *(f"{timings.answer_ms(s):.2f}" for s in (timings.clients_s, timings.front_s, timings.workers_s)),
             optimum,
         )

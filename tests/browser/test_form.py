@@ -121,6 +121,9 @@ def test_a_limit_that_is_left_empty_is_none(portal: Portal) -> None:
     most = portal.input("/machine/webs/0/max_mass_kg")
     most.fill("")
     assert most.get_attribute("placeholder") == "no limit"
+    # another field is named by its label, and nobody has to know null
+    assert portal.input("/machine/overspeed_rpm").get_attribute("placeholder") == "speed"
+    assert not [text for text in portal.page.locator("#form .about, #form .hint").all_inner_texts() if "null" in text]
     portal.optimise()
     assert portal.bodies("/v1/optimize")[-1]["machine"]["webs"][0]["max_mass_kg"] is None
 

@@ -53,7 +53,10 @@ def test_the_head_of_a_table_gives_names(portal: Portal) -> None:
         text = f"{kind.title()}\tposition\ndrive end\t0,45\nfree end\t-0,45\n"
         portal.paste(f"#form .grid-{kind} .wide", text)
         items = _request(portal)["machine"][table][:2]
-        assert [(entry["name"], entry["position_m"]) for entry in items] == [("drive end", 0.45), ("free end", -0.45)]
+        assert [(bearing["name"], bearing["position_m"]) for bearing in items] == [
+            ("drive end", 0.45),
+            ("free end", -0.45),
+        ]
         assert portal.page.locator(f"#form .grid-{kind} .said").inner_text() == ""
 
 
@@ -75,7 +78,7 @@ def test_names_and_planes_alone_are_bearings_unless_a_title_says_otherwise(porta
         portal.paste("body", f"{title}Name\tPosition (mm)\nD\t-410\nE\t410\n")
         expect(portal.page.locator("#progress")).to_have_text(f"Pasted: 2 {place}. Press Optimise.")
         machine = _request(portal)["machine"]
-        assert [entry["name"] for entry in machine[place]][:2] == ["D", "E"]
+        assert [part["name"] for part in machine[place]][:2] == ["D", "E"]
         # all else is as it was
         assert {**machine, place: before[place]} == before
         portal.page.click("#undo")

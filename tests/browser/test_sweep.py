@@ -67,7 +67,7 @@ def test_bearing_loads_over_the_speed_are_one_click(portal: Portal, url: str) ->
     base = body["base"]
     base["machine"]["speed_rpm"] = axis["stop"]
     loads = ask(url, "/v1/analyze", base)["main_bearings"]["bearings"]
-    largest = max(entry["after"]["peak_N"] for entry in loads)
+    largest = max(load["after"]["peak_N"] for load in loads)
     words = panel.locator("[role=img][aria-label*='Largest load']").get_attribute("aria-label") or ""
     assert number(words.partition("up to ")[2].removesuffix(" N.")) == pytest.approx(largest, rel=1e-4)
 

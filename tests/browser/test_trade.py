@@ -81,7 +81,7 @@ def test_versions_show_every_response_that_was_weighed(portal: Portal, url: str)
         values = [largest(answer["main_bearings"]) for answer in answers]
         assert [number(text.partition(" (")[0]) for text in rows[title]] == pytest.approx(values, rel=1e-4)
         marks = [text.endswith("(best)") for text in rows[title]]
-        assert marks == [value == min(values) for value in values]
+        assert marks == [figure == min(values) for figure in values]
 
 
 def test_the_headline_says_what_rises_from_nothing(portal: Portal) -> None:

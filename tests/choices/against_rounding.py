@@ -227,24 +227,24 @@ class Plain:
         first = (float(used.max()), float(used.min())) if used.size else (10.0, 1.0)
         sizes = first if first[0] != first[1] else (first[0], 2.0)
 
-        def value(pair: tuple[float, float]) -> tuple[float, float]:
+        def smallest_of(pair: tuple[float, float]) -> tuple[float, float]:
             some = [
                 o[(np.abs(o) == 0) | np.isclose(np.abs(o), pair[0]) | np.isclose(np.abs(o), pair[1])]
                 for o in self.options
             ]
             return self.best(some)
 
-        entry, moved = value(sizes), True
+        best, moved = smallest_of(sizes), True
         for _ in range(6):
             if not moved:
                 break
             moved = False
             for da, db in ((0.5, 0), (-0.5, 0), (0, 0.5), (0, -0.5)):
                 pair = (min(sizes[0] + da, 90.0), max(sizes[1] + db, 0.5))
-                tried = value(pair)
-                if tried[0] < entry[0] * (1 - 1e-12):
-                    entry, sizes, moved = tried, pair, True
-        return entry
+                other = smallest_of(pair)
+                if other[0] < best[0] * (1 - 1e-12):
+                    best, sizes, moved = other, pair, True
+        return best
 
 
 def compared(seed: int, limit_s: float = _LIMIT_S, modes: Sequence[str] = MODES) -> Iterator[Compared]:
@@ -262,12 +262,12 @@ def compared(seed: int, limit_s: float = _LIMIT_S, modes: Sequence[str] = MODES)
         seconds = time.process_time() - start
         assert answer.certificate is not None
         plain = Plain(body, optimum)
-        value, mass = plain.of_two_sizes() if mode == "two sizes" else plain.best(plain.options)
+        objective_by_hand, mass = plain.of_two_sizes() if mode == "two sizes" else plain.best(plain.options)
         proof = answer.certificate
         limit = (proof.lower_bound or 0.0) + _GAP * proof.yardstick
         as_good = min((kg for objective, kg in plain.ends if objective <= limit), default=np.inf)
         yield Compared(
-            mode, len(free["throws"]), proof.objective, value, answer.total_mass_kg or 0.0, mass, as_good,
+            mode, len(free["throws"]), proof.objective, objective_by_hand, answer.total_mass_kg or 0.0, mass, as_good,
             proof.yardstick, np.nan if proof.relative_gap is None else proof.relative_gap, seconds,
         )  # fmt: skip
 
@@ -275,23 +275,27 @@ def compared(seed: int, limit_s: float = _LIMIT_S, modes: Sequence[str] = MODES)
 def main(first: int, count: int, limit_s: float, modes: Sequence[str]) -> int:
     every = []
     for seed in range(first, first + count):
-        for entry in compared(seed, limit_s, modes):
-            print(f"{seed:>4} {entry}{', worse' * entry.worse}{', heavier' * entry.heavier}", flush=True)
-            every.append(entry)
+        for comparison in compared(seed, limit_s, modes):
+            marks = ", worse" * comparison.worse + ", heavier" * comparison.heavier
+            print(f"{seed:>4} {comparison}{marks}", flush=True)
+            every.append(comparison)
     for mode in modes:
-        some = [entry for entry in every if entry.mode == mode]
-        gaps, seconds = np.array([entry.gap for entry in some]), np.array([entry.seconds for entry in some])
-        heavier = np.array([entry.mass - entry.mass_by_hand for entry in some])
-        worse = [entry for entry in some if entry.worse]
+        some = [comparison for comparison in every if comparison.mode == mode]
+        gaps, seconds = (
+            np.array([comparison.gap for comparison in some]),
+            np.array([comparison.seconds for comparison in some]),
+        )
+        heavier = np.array([comparison.mass - comparison.mass_by_hand for comparison in some])
+        worse = [comparison for comparison in some if comparison.worse]
         print(
             f"{mode:<10} machines {len(some):>4}, worse {len(worse):>3}, better"
-            f" {sum(entry.value < entry.by_hand - _GAP * entry.yardstick for entry in some):>3};"
+            f" {sum(comparison.value < comparison.by_hand - _GAP * comparison.yardstick for comparison in some):>3};"
             f" gap median {np.nanmedian(gaps):.1e}, largest {np.nanmax(gaps):.1e};"
             f" CPU median {np.median(seconds):.2f} s, largest {np.max(seconds):.1f};"
             f" mass against by hand, median {np.median(heavier):+.1f} kg, most {np.max(heavier):+.1f};"
-            f" heavier than as good by hand {sum(entry.heavier for entry in some)}"
+            f" heavier than as good by hand {sum(comparison.heavier for comparison in some)}"
         )
-    return int(any(entry.worse for entry in every))
+    return int(any(comparison.worse for comparison in every))
 
 
 if __name__ == "__main__":

@@ -59,8 +59,8 @@ def highs(statement: Statement, options: Options, relative_gap: float, yardstick
     taken = np.zeros(exists.shape)
     taken[slot, option] = solution.x[:count]
     chosen = np.argmax(taken, axis=-1)
-    value = float(statement.objective(options.carried(chosen)))
-    return Chosen(value, bound, int(solution.mip_node_count or 0), chosen)
+    objective = float(statement.objective(options.carried(chosen)))
+    return Chosen(objective, bound, int(solution.mip_node_count or 0), chosen)
 
 
 def _constraint(parts: Sequence[Any], widths: tuple[int, int, int], low: Any, high: Any) -> LinearConstraint:

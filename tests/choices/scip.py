@@ -34,16 +34,16 @@ def scip(statement: Statement, options: Options, relative_gap: float, yardstick:
     ]  # fmt: skip
     for some in taken:
         model.addCons(quicksum(some) == 1)
-    fitted = [(k, o, value) for k, some in enumerate(taken) for o, value in enumerate(some) if o > 0]
+    fitted = [(k, o, chance) for k, some in enumerate(taken) for o, chance in enumerate(some) if o > 0]
     if np.isfinite(statement.limits.max_total_mass):
-        weighed = quicksum(float(options.mass[k, o]) * value for k, o, value in fitted)
+        weighed = quicksum(float(options.mass[k, o]) * chance for k, o, chance in fitted)
         model.addCons(weighed <= float(statement.limits.max_total_mass))
     if options.most_fitted is not None:
-        model.addCons(quicksum(value for _, _, value in fitted) <= options.most_fitted)
+        model.addCons(quicksum(chance for _, _, chance in fitted) <= options.most_fitted)
 
     def size(constant: complex, influence: np.ndarray, unit: float) -> object:
         """A variable no smaller than |c + H u| over a unit."""
-        effects = [(complex(influence[k] * options.unbalance[k, o]) / unit, value) for k, o, value in fitted]
+        effects = [(complex(influence[k] * options.unbalance[k, o]) / unit, chance) for k, o, chance in fitted]
         return _length(model, complex(constant) / unit, effects)
 
     norms, ceilings = statement.norms, statement.ceilings
@@ -58,7 +58,9 @@ def scip(statement: Statement, options: Options, relative_gap: float, yardstick:
     solution = _solved(model, quicksum(groups), unit_of_all)
     if not model.getNSols():
         return solution
-    return solution._replace(selection=np.array([np.argmax([model.getVal(value) for value in some]) for some in taken]))
+    return solution._replace(
+        selection=np.array([np.argmax([model.getVal(chance) for chance in some]) for some in taken])
+    )
 
 
 def scip_matched(problem: Problem, relative_gap: float, yardstick: float, time_limit_s: float) -> Chosen:
@@ -73,7 +75,7 @@ def scip_matched(problem: Problem, relative_gap: float, yardstick: float, time_l
             model.addCons(quicksum(values[k] for values in goes) == 1)
         effects += [(added[:, t] * places.mass[k], goes[k][t]) for k in range(count) for t in range(count)]
     lengths = [
-        _length(model, complex(start) / unit, [(complex(effect[j]), value) for effect, value in effects])
+        _length(model, complex(start) / unit, [(complex(effect[j]), chance) for effect, chance in effects])
         for j, start in enumerate(problem.start)
     ]
     peak = model.addVar(lb=0.0)
@@ -99,9 +101,11 @@ def _length(model: Any, constant: complex, effects: Iterable[tuple[complex, Any]
     """A variable no smaller than |constant + sum of effects|, each taken as often as its variable says."""
     length, parts, listed = model.addVar(lb=0.0), [], list(effects)
     for part in ("real", "imag"):
-        value = model.addVar(lb=None)
-        model.addCons(value == getattr(constant, part) + quicksum(getattr(e, part) * value for e, value in listed))
-        parts.append(value)
+        component = model.addVar(lb=None)
+        model.addCons(
+            component == getattr(constant, part) + quicksum(getattr(e, part) * chance for e, chance in listed)
+        )
+        parts.append(component)
     model.addCons(parts[0] * parts[0] + parts[1] * parts[1] <= length * length)
     return length
 

@@ -79,7 +79,7 @@ def by_hand(body: Body, masses: np.ndarray, step_deg: float) -> float:
         options.append(np.r_[0.0, (RADIUS * masses[:, None] * np.exp(1j * np.radians(inside))).ravel()])
     free = answer(body)
     start = np.array([complex(counterweight.x_kg_m, counterweight.y_kg_m) for counterweight in free.counterweights])
-    u = np.array([some[np.argmin(np.abs(some - value))] for some, value in zip(options, start, strict=True)])
+    u = np.array([some[np.argmin(np.abs(some - unbalance))] for some, unbalance in zip(options, start, strict=True)])
     best, left = float(objective_of(body, u)), len(options)
     while left:
         for k, some in enumerate(options):

@@ -63,8 +63,8 @@ def _through_a_tree(method: str, monkeypatch: pytest.MonkeyPatch) -> None:
 def test_a_false_bound_of_any_masses_stays_above_what_was_found(method: str, monkeypatch: pytest.MonkeyPatch) -> None:
     _through_a_tree(method, monkeypatch)
     _, size = _problem()
-    bound, value = _bounds(method, _FALSE * size)
-    assert value < bound == _FALSE * size
+    bound, optimum = _bounds(method, _FALSE * size)
+    assert optimum < bound == _FALSE * size
 
 
 @pytest.mark.parametrize("method", _METHODS)
@@ -74,5 +74,5 @@ def test_a_tree_that_ends_above_what_was_found_contradicts_nothing(
     """What was offered is in no node, so that what is left may come to more."""
     _through_a_tree(method, monkeypatch)
     _, size = _problem()
-    bound, value = _bounds(method, None)
-    assert value - 2e-6 * size <= bound <= value * (1.0 + 1e-12)
+    bound, optimum = _bounds(method, None)
+    assert optimum - 2e-6 * size <= bound <= optimum * (1.0 + 1e-12)

@@ -31,13 +31,13 @@ def test_the_best_of_the_cheap_ones_is_offered_and_what_all_others_cost_is_told(
     options = options_of(problem, [0.2, 0.5, 0.9], [0.0])
     forced = rng.uniform(2.0, 3.0, (1, *options.mass.shape))
     lowest, cost = costs(options.exists[None], forced)
-    sets, value = every_set(problem, options)
+    sets, objectives = every_set(problem, options)
     spent = np.sum(cost[0][np.arange(options.slots), sets], axis=-1)
     for may in (0.0, 0.3, 0.8, np.inf):
         incumbent = Incumbent(problem, options, 0.0)
         number = offer_few(problem, incumbent, cost[0], may)
         cheap = spent <= may
-        assert np.isclose(incumbent.least, np.min(value[cheap], initial=np.inf), rtol=1e-12)
+        assert np.isclose(incumbent.least, np.min(objectives[cheap], initial=np.inf), rtol=1e-12)
         assert number <= np.min(spent[~cheap], initial=np.inf) * (1.0 + 1e-12)
         assert number > may or not np.any(~cheap)
     assert lowest[0] < 3.0

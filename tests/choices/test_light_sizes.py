@@ -34,10 +34,10 @@ def test_lighter_and_within_all_limits(seed: int, webs: int, parts: int, share: 
     heaviest = sets[indices[np.argmax(mass[indices])]]
     light = np.random.default_rng(seed).uniform(0.1, 1.0, webs) * most * problem.limits.radius + 0j
     sizes = LightSizes(problem, options, light, list(range(webs)))
-    for value in (None, heaviest, None):
-        array = sizes.below(value, level, Clock(_LONG))
+    for incumbent in (None, heaviest, None):
+        array = sizes.below(incumbent, level, Clock(_LONG))
         if array is None:
-            assert value is None
+            assert incumbent is None
             continue
         assert array.tolist() in sets[indices].tolist()
         weighs = float(np.sum(options.of(options.mass, array)))
@@ -50,7 +50,7 @@ def test_what_is_above_a_lower_limit_is_forgotten() -> None:
     problem = random_statement(3, "sum", (1.0, 1.0), False, False, False, webs=3)
     options = options_of(problem, [0.2 * float(np.max(problem.limits.max_mass))], [0.0, 180.0], None, 0)
     nothing = np.zeros(3, int)
-    value = float(problem.objective(options.carried(nothing)))
+    objective = float(problem.objective(options.carried(nothing)))
     sizes = LightSizes(problem, options, problem.limits.radius + 0j, [0, 1, 2])
-    assert sizes.below(nothing, value, Clock(_LONG)) is nothing
-    assert sizes.below(None, 0.5 * value, Clock(0.0)) is None
+    assert sizes.below(nothing, objective, Clock(_LONG)) is nothing
+    assert sizes.below(None, 0.5 * objective, Clock(0.0)) is None

@@ -27,9 +27,9 @@ def test_the_time_ends_programs_that_are_solved_one_by_one(calls: int) -> None:
     # analytic: a clock that runs out after so many looks leaves so many programs
     ticks = iter([0.0] * (calls + 1) + [2.0] * _COUNT)
     programs = _turned()
-    result = solved(programs, None, np.full(_COUNT, 1e-6), np.zeros(_COUNT), False, Clock(1.0, lambda: next(ticks)))
-    bounds = objective_lower_bound(programs, result.multipliers)
+    solutions = solved(programs, None, np.full(_COUNT, 1e-6), np.zeros(_COUNT), False, Clock(1.0, lambda: next(ticks)))
+    bounds = objective_lower_bound(programs, solutions.multipliers)
     assert np.all(np.isfinite(bounds[:calls]))
     assert np.all(bounds[calls:] == -np.inf)
-    assert not np.any(result.unbalance[calls:])
-    assert not np.any(result.nowhere)
+    assert not np.any(solutions.unbalance[calls:])
+    assert not np.any(solutions.nowhere)

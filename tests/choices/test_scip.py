@@ -33,11 +33,11 @@ def test_four_webs(combine: str, budget: bool, ceilings: bool, fitted: int | Non
     options = options_of(problem, masses, [0.0, 60.0, 120.0, 180.0, 240.0, 300.0], fitted)
     size = float(yardstick(problem.alone())[0])
     chosen, ours = search_result_of(problem, options, relative_gap=1e-6)
-    value = float(problem.objective(options.of(options.unbalance, chosen)))
+    objective = float(problem.objective(options.of(options.unbalance, chosen)))
     theirs = scip(problem, options, 1e-7, size, _LONG)
-    assert value == pytest.approx(theirs.objective, abs=_CLOSE * size)
+    assert objective == pytest.approx(theirs.objective, abs=_CLOSE * size)
     assert ours.lower_bound <= theirs.objective + _CLOSE * size
-    assert theirs.lower_bound <= value + _CLOSE * size
+    assert theirs.lower_bound <= objective + _CLOSE * size
 
 
 def test_two_solvers_of_others_agree() -> None:
@@ -48,11 +48,11 @@ def test_two_solvers_of_others_agree() -> None:
     size = float(yardstick(problem.alone())[0])
     theirs, bound = (rival(problem, options, 1e-7, size, _LONG) for rival in (scip, highs))
     chosen, _ = search_result_of(problem, options, relative_gap=1e-9)
-    value = float(problem.objective(options.of(options.unbalance, chosen)))
-    assert theirs.objective == pytest.approx(value, abs=_CLOSE * size)
-    assert bound.objective >= value - _CLOSE * size
-    assert bound.objective <= value + 5.0 / SIDES**2 * size
-    assert bound.lower_bound <= value + _CLOSE * size
+    objective = float(problem.objective(options.of(options.unbalance, chosen)))
+    assert theirs.objective == pytest.approx(objective, abs=_CLOSE * size)
+    assert bound.objective >= objective - _CLOSE * size
+    assert bound.objective <= objective + 5.0 / SIDES**2 * size
+    assert bound.lower_bound <= objective + _CLOSE * size
     for body in (theirs, bound):
         assert body.selection is not None
         judged = float(problem.objective(options.of(options.unbalance, body.selection)))

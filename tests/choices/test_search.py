@@ -37,7 +37,7 @@ def search_result_of(
 def method(request: pytest.FixtureRequest, monkeypatch: pytest.MonkeyPatch) -> str:
     if request.param == "quarters":
         # sums of halves that are not listed, however few they are
-        monkeypatch.setattr(halves, "_LISTED", 0)
+        monkeypatch.setattr(halves, "_LIST_SIZE", 0)
         monkeypatch.setattr(halves, "_FEW", 0)
         monkeypatch.setattr(pairs, "_FEWEST", 10)
         monkeypatch.setattr(pairs, "_SLAB", 7)
@@ -132,7 +132,7 @@ def test_ten_million_sets(seed: int, monkeypatch: pytest.MonkeyPatch) -> None:
         best = min(best, float(np.min(problem.objective(options.of(options.unbalance, sets)))))
     size = float(yardstick(problem.alone())[0])
     for listed in (20_000, 0):
-        monkeypatch.setattr(halves, "_LISTED", listed)
+        monkeypatch.setattr(halves, "_LIST_SIZE", listed)
         chosen, search_result = search_result_of(problem, options)
         assert (search_result.method, search_result.proven) == (EXHAUSTED, True)
         assert abs(float(problem.objective(options.of(options.unbalance, chosen))) - best) <= EQUAL * size
@@ -177,9 +177,9 @@ def test_a_search_that_is_out_of_time_says_so() -> None:
     assert search_result.ended == "time"
     assert search_result.feasible
     assert not search_result.proven
-    value = float(problem.objective(options.of(options.unbalance, chosen)))
+    objective = float(problem.objective(options.of(options.unbalance, chosen)))
     assert optima(problem.alone(), 1e-6, False).lower_bound[0] <= search_result.lower_bound + 1e-12 * size
-    assert search_result.lower_bound <= value
+    assert search_result.lower_bound <= objective
 
 
 def test_the_asked_gap_ends_the_search() -> None:
@@ -192,10 +192,10 @@ def test_the_asked_gap_ends_the_search() -> None:
         patch.setattr(search, "_SUMS", 0)
         patch.setattr(branch, "_SETS", 1)
         chosen, search_result = search_result_of(problem, options, 0.02)
-    value = float(problem.objective(options.of(options.unbalance, chosen)))
+    objective = float(problem.objective(options.of(options.unbalance, chosen)))
     assert search_result.ended is None
-    assert search_result.lower_bound <= best + 1e-12 * size <= value + 2e-12 * size
-    assert value - search_result.lower_bound <= 0.02 * size
+    assert search_result.lower_bound <= best + 1e-12 * size <= objective + 2e-12 * size
+    assert objective - search_result.lower_bound <= 0.02 * size
 
 
 def test_the_continuous_optimum_is_never_beaten() -> None:
@@ -203,8 +203,8 @@ def test_the_continuous_optimum_is_never_beaten() -> None:
         problem = random_statement(seed, "sum", (1.0, 1.0), True, False, False, webs=5)
         options = options_of(problem, [float(np.max(problem.limits.max_mass)) * share for share in (0.2, 0.6)], [0.0])
         chosen, _ = search_result_of(problem, options)
-        value = float(problem.objective(options.of(options.unbalance, chosen)))
-        assert value >= optima(problem.alone(), 1e-6, False).lower_bound[0] * (1.0 - 1e-12)
+        objective = float(problem.objective(options.of(options.unbalance, chosen)))
+        assert objective >= optima(problem.alone(), 1e-6, False).lower_bound[0] * (1.0 - 1e-12)
 
 
 @pytest.mark.parametrize(

@@ -35,7 +35,7 @@ def test_the_examples_print_what_stands_below_them(language: str, url: str, tmp_
     )
     assert ran.returncode == 0, ran.stderr
     # what head -c leaves without an end of line is no difference
-    assert ran.stdout.split() == "".join(value for _, _, value in values).replace("%PDF-\n", "%PDF-").split()
+    assert ran.stdout.split() == "".join(output for _, _, output in values).replace("%PDF-\n", "%PDF-").split()
 
 
 def test_every_language_has_an_example_of_every_route() -> None:

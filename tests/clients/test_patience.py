@@ -63,11 +63,11 @@ def waited(counterweight: ModuleType, monkeypatch: pytest.MonkeyPatch) -> list[f
     return times
 
 
-@pytest.mark.parametrize(("entry", "wait_s"), [(busy(503, Retry_After="1"), 1.0), (busy(429, Retry_After="0"), 0.0)])
+@pytest.mark.parametrize(("answer", "wait_s"), [(busy(503, Retry_After="1"), 1.0), (busy(429, Retry_After="0"), 0.0)])
 def test_it_comes_back_when_it_is_told_to(
-    counterweight: ModuleType, waited: list[float], entry: Answer, wait_s: float
+    counterweight: ModuleType, waited: list[float], answer: Answer, wait_s: float
 ) -> None:
-    with serving(iter([entry, _GOOD])) as (url, requests):
+    with serving(iter([answer, _GOOD])) as (url, requests):
         assert counterweight.Service(url).optimize({}) == {"status": "optimal"}
     assert waited == [wait_s]
     assert len(requests) == 2

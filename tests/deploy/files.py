@@ -53,5 +53,5 @@ def manifests() -> dict[str, dict[str, Any]]:
     """The objects of Kubernetes by kind."""
     files = sorted(file for file in (DEPLOY / "kubernetes").iterdir() if file.stem != "kustomization")
     values = [yaml.safe_load(file.read_text("utf-8")) for file in files]
-    assert len({entry["kind"] for entry in values}) == len(values)
-    return {entry["kind"]: entry for entry in values}
+    assert len({manifest["kind"] for manifest in values}) == len(values)
+    return {manifest["kind"]: manifest for manifest in values}

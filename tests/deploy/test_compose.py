@@ -72,7 +72,7 @@ def test_memory_processors_and_disk_are_limited(name: str) -> None:
     service = SERVICES[name]
     assert {"mem_limit", "cpus", "pids_limit"} <= service.keys()
     assert service["logging"]["options"].keys() == {"max-size", "max-file"}
-    assert name not in OURS or any("size=1g" in value for value in service["tmpfs"])
+    assert name not in OURS or any("size=1g" in mount for mount in service["tmpfs"])
 
 
 def test_what_others_made_is_named_by_digest() -> None:

@@ -52,9 +52,9 @@ def paths() -> frozenset[str]:
 )
 def test_probes_ask_where_there_is_an_answer(probe: str, path: str, paths: frozenset[str]) -> None:
     """Alive and ready are different: a service that is not ready must not be ended for it."""
-    value = CONTAINER[probe]["httpGet"]
-    assert value["path"] == path
-    assert value["port"] in {port["name"] for port in CONTAINER["ports"]}
+    probe_request = CONTAINER[probe]["httpGet"]
+    assert probe_request["path"] == path
+    assert probe_request["port"] in {port["name"] for port in CONTAINER["ports"]}
     assert path in paths
 
 
@@ -71,7 +71,7 @@ def test_the_settings_are_ones_of_the_service(monkeypatch: pytest.MonkeyPatch) -
 
 def test_the_secret_holds_what_is_taken_from_it() -> None:
     held = ALL["Secret"]["stringData"]
-    taken = [entry["valueFrom"]["secretKeyRef"]["key"] for entry in CONTAINER["env"]]
+    taken = [variable["valueFrom"]["secretKeyRef"]["key"] for variable in CONTAINER["env"]]
     taken += [item["key"] for item in POD["volumes"][2]["secret"]["items"]]
     assert set(held) == set(taken)
     assert set(taken) - {"keys.jsonl"} <= settings_variables()

@@ -196,7 +196,7 @@ def test_overlays_are_manifests(folder: str) -> None:
     if folder.endswith("single"):
         container = deployment["template"]["spec"]["containers"][0]
         assert (deployment["replicas"], deployment["strategy"]) == (1, {"type": "Recreate"})
-        assert "COUNTERWEIGHT_DATABASE_URL" not in {entry["name"] for entry in container.get("env", [])}
+        assert "COUNTERWEIGHT_DATABASE_URL" not in {variable["name"] for variable in container.get("env", [])}
         assert by_kind["PersistentVolumeClaim"]["spec"]["accessModes"] == ["ReadWriteOnce"]
     if folder.endswith("cluster"):
         assert "replicas" not in deployment

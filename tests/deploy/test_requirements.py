@@ -27,9 +27,9 @@ def test_a_list_holds_versions_and_hashes_alone(file: Path) -> None:
     """No address of an index, no path of a machine, nothing without a hash."""
     text = file.read_text("utf-8")
     assert "://" not in text
-    for entry in re.split(r"\n(?=\S)", text.strip()):
-        assert re.match(r"[\w.-]+(\[[\w,-]+\])?==[^\s;]+", entry), entry
-        assert re.search(r"--hash=sha256:[0-9a-f]{64}", entry), entry
+    for requirement in re.split(r"\n(?=\S)", text.strip()):
+        assert re.match(r"[\w.-]+(\[[\w,-]+\])?==[^\s;]+", requirement), requirement
+        assert re.search(r"--hash=sha256:[0-9a-f]{64}", requirement), requirement
 
 
 def test_the_image_holds_every_extra() -> None:

@@ -30,7 +30,7 @@ def test_it_starts_a_command_that_there_is() -> None:
 
 
 def test_it_names_settings_of_the_service() -> None:
-    named = {value.split("=")[0] for value in unit()["Environment"]}
+    named = {variable.split("=")[0] for variable in unit()["Environment"]}
     assert "COUNTERWEIGHT_DATA_DIR" in named
     assert {name for name in named if name.startswith("COUNTERWEIGHT_")} <= settings_variables()
 
@@ -39,7 +39,7 @@ def test_it_writes_only_where_it_may() -> None:
     """With ProtectSystem=strict that is what the state and cache directories are for."""
     actual_unit = unit()
     assert actual_unit["ProtectSystem"] == ["strict"]
-    folders = dict(value.split("=", 1) for value in actual_unit["Environment"])
+    folders = dict(variable.split("=", 1) for variable in actual_unit["Environment"])
     assert folders["COUNTERWEIGHT_DATA_DIR"] == f"%S/{actual_unit['StateDirectory'][0]}"
     assert folders["NUMBA_CACHE_DIR"] == f"%C/{actual_unit['CacheDirectory'][0]}"
 

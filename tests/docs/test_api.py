@@ -64,7 +64,7 @@ def test_the_calls_print_what_stands_below_them(url: str, tmp_path: Path) -> Non
     ran = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, timeout=300, check=False)
     assert ran.returncode == 0, ran.stderr
     # headers end with CR LF, which is no difference
-    assert ran.stdout.split() == "".join(value for _, value in calls).split()
+    assert ran.stdout.split() == "".join(output for _, output in calls).split()
 
 
 def test_the_request_its_answer_and_the_infeasible_one() -> None:
@@ -121,8 +121,8 @@ def test_the_methods_of_the_certificate() -> None:
 
 
 def test_the_machine_with_gas() -> None:
-    _, request, value = blocks(section("docs/api/analyze.md", "POST /v1/analyze"))
-    agrees(value, analyze(AnalyzeRequest.model_validate(request)).model_dump(mode="json"))
+    _, request, answer = blocks(section("docs/api/analyze.md", "POST /v1/analyze"))
+    agrees(answer, analyze(AnalyzeRequest.model_validate(request)).model_dump(mode="json"))
 
 
 def test_the_front() -> None:

@@ -132,9 +132,9 @@ def test_an_engine_whose_masses_are_off() -> None:
         assert answer.worst_case is not None
         price = answer.price_of_robustness
         assert price is not None
-        entry = (answer.worst_case.bearing_peak_N, price.nominal_optimum_worst_case, price.nominal)
+        costs = (answer.worst_case.bearing_peak_N, price.nominal_optimum_worst_case, price.nominal)
         # optima may differ by a millionth of what is there without counterweights, and what is bought with it by more
-        assert entry == pytest.approx([float(figure) for figure in figures], rel=1e-4)
+        assert costs == pytest.approx([float(figure) for figure in figures], rel=1e-4)
         if percent == "2":
             agrees(block, answer.model_dump(mode="json"))
 

@@ -24,11 +24,11 @@ def test_the_examples_print_what_stands_below_them() -> None:
     names: dict[str, Any] = {}
     matches = re.findall(r"```python\n(.*?)```\n\n```text\n(.*?)```", TEXT, re.DOTALL)
     assert len(matches) == TEXT.count("```python")
-    for code, value in matches:
+    for code, output in matches:
         printed = io.StringIO()
         with contextlib.redirect_stdout(printed):
             exec(code, names)
-        assert printed.getvalue() == value
+        assert printed.getvalue() == output
 
 
 def test_the_public_names() -> None:

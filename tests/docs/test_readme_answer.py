@@ -33,12 +33,12 @@ def test_the_answer_shown_is_that_of_today() -> None:
     answer = json.loads(optimize(request).model_dump_json())
     leaves = list(_leaves(section, answer))
     assert len(leaves) > 30
-    for place, value, today in leaves:
+    for place, figure, today in leaves:
         if place.endswith("relative_gap"):
             # what rounding leaves of a gap, which differs by machine: of the same size, and within what is asked
-            assert abs(math.log10(value / today)) < 2 or max(value, today) < 1e-8, place
-        elif isinstance(value, float):
-            decimals = len(str(value).partition(".")[2])
-            assert today == pytest.approx(value, abs=0.51 * 10.0**-decimals), place
+            assert abs(math.log10(figure / today)) < 2 or max(figure, today) < 1e-8, place
+        elif isinstance(figure, float):
+            decimals = len(str(figure).partition(".")[2])
+            assert today == pytest.approx(figure, abs=0.51 * 10.0**-decimals), place
         else:
-            assert today == value, place
+            assert today == figure, place

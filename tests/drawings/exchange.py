@@ -54,11 +54,11 @@ class File:
     def _volume(self, shell: int) -> float:
         faces = self._of(shell, "CLOSED_SHELL")
         walked = [self._loop(face) for face in faces]
-        uses = Counter((entry.edge, entry.along) for loop in walked for entry in loop)
+        uses = Counter((side.edge, side.along) for loop in walked for side in loop)
         # each edge once in either direction: the shell is closed, and its faces agree about outside
         assert set(uses.values()) == {1}
         assert all((edge, not along) in uses for edge, along in uses)
-        corners = {entry.start for loop in walked for entry in loop}
+        corners = {side.start for loop in walked for side in loop}
         assert len(corners) - len(uses) // 2 + len(faces) == 2
         return sum(self._flux(face, loop) for face, loop in zip(faces, walked, strict=True)) / 3.0
 
@@ -66,8 +66,8 @@ class File:
         bound = self._of(face, "ADVANCED_FACE")[0]
         edges = self._of(self._of(bound, "FACE_OUTER_BOUND")[0], "EDGE_LOOP")
         loop = [self._walked(edge) for edge in edges]
-        for entry, following in zip(loop, [*loop[1:], loop[0]], strict=True):
-            assert entry.end == following.start
+        for side, following in zip(loop, [*loop[1:], loop[0]], strict=True):
+            assert side.end == following.start
         return loop
 
     def _walked(self, oriented: int) -> Walked:
@@ -92,23 +92,23 @@ class File:
         at, axis, _ = (self._vector(k) for k in self._of(_references(text)[0], "AXIS2_PLACEMENT_3D"))
         if kind == "PLANE":
             distance = sum(a * b for a, b in zip(at, axis, strict=True))
-            corners = [entry.start for entry in loop]
+            corners = [side.start for side in loop]
             assert all(abs(sum(a * b for a, b in zip(c, axis, strict=True)) - distance) < 1e-8 for c in corners)
             return sign * distance * self._area(loop, axis)
         assert kind == "CYLINDRICAL_SURFACE"
         radius = float(text.split(",")[-1])
-        low, high = (f(entry.start[2] for entry in loop) for f in (min, max))
-        swept = {abs(entry.swept) for entry in loop} - {0.0}
+        low, high = (f(side.start[2] for side in loop) for f in (min, max))
+        swept = {abs(side.swept) for side in loop} - {0.0}
         return sign * radius * radius * max(swept) * (high - low)
 
     def _area(self, loop: list[Walked], normal: Vector) -> float:
         """What the loop goes round, counter-clockwise about the normal: half the sum of r x dr."""
         total = 0.0
-        for entry in loop:
-            if entry.swept:
-                total += 0.5 * normal[2] * hypot(*entry.start[:2]) ** 2 * entry.swept
+        for side in loop:
+            if side.swept:
+                total += 0.5 * normal[2] * hypot(*side.start[:2]) ** 2 * side.swept
             else:
-                total += 0.5 * _triple(normal, entry.start, entry.end)
+                total += 0.5 * _triple(normal, side.start, side.end)
         return total
 
     def _vector(self, number: int) -> Vector:

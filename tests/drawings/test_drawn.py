@@ -151,7 +151,7 @@ def test_where_a_counterweight_sits() -> None:
         for line in text.splitlines()
         if "CARTESIAN_POINT" in line
     ]
-    corners = {tuple(round(value, 6) + 0.0 for value in point) for point in points}
+    corners = {tuple(round(coordinate, 6) + 0.0 for coordinate in point) for point in points}
     assert {(100.0, 0.0, 175.0), (-100.0, 0.0, 225.0)} <= corners
 
 

@@ -33,7 +33,9 @@ def test_what_is_read_back_is_the_outline(plate: Envelope, half_angle: float) ->
             assert entity.dxf.radius == pytest.approx(1e3 * edge.radius, abs=1e-11)
         else:
             ends = (*entity.dxf.start, *entity.dxf.end)
-            assert ends == pytest.approx([1e3 * value for value in (*edge.start, 0.0, *edge.end, 0.0)], abs=1e-11)
+            assert ends == pytest.approx(
+                [1e3 * coordinate for coordinate in (*edge.start, 0.0, *edge.end, 0.0)], abs=1e-11
+            )
 
 
 def test_the_shaft_is_marked_on_a_layer_of_its_own() -> None:

@@ -112,8 +112,8 @@ class _Without:
     def comes_to_more(self, minimised: str, most: float) -> bool:
         """Whether the last goal, or the mass with all goals kept, is above a figure wherever the others are kept."""
         for _ in range(_ROUNDS):
-            value, u = self._smallest(minimised)
-            if value > most * (1.0 + _SOLVED):
+            smallest, u = self._smallest(minimised)
+            if smallest > most * (1.0 + _SOLVED):
                 return True
             self._look_closer(u)
         return False

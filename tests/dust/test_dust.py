@@ -1,7 +1,7 @@
 """No counterweight is dust: property, of random machines of every mode.
 
-Regression: before dust was taken away in the answers of all methods 130 of 10,000 machines had some, and 62 had plates
-of one kind that differed by less than a thousandth of a degree.
+Regression: before dust was taken away in the answers of all methods 130 of 10,000 machines had some. 62 had plates of
+one kind that differed by less than a thousandth of a degree.
 """
 
 import pytest

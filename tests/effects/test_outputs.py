@@ -173,7 +173,7 @@ def test_order_2_is_the_series() -> None:
         radius = body["throws"][throw]["crank_radius_m"]
         length = body["throws"][row.throw]["rows"][row.row]["connecting_rod"]["length_m"]
         # analytic: r w^2 (cos phi + lam cos 2 phi)
-        phi = [math.radians(value) for value in row.crank_angle_deg]
+        phi = [math.radians(angle) for angle in row.crank_angle_deg]
         expected = [radius * omega**2 * (math.cos(p) + radius / length * math.cos(2 * p)) for p in phi]
         assert row.acceleration_m_s2 == pytest.approx(expected, rel=1e-9, abs=1e-9 * radius * omega**2)
         assert row.crank_angle_deg == line.crank_angle_deg

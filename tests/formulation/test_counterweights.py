@@ -62,7 +62,7 @@ def test_masses_next_to_a_limit_are_the_limit_and_nothing_has_no_angle() -> None
     plan = _sector(0.0, 30.0, 5.0)
     for share, full in ((1.0 - 1e-15, True), (1.0 + 1e-15, True), (1.0 - 1e-13, False)):
         mass, _ = _masses_and_angles(plan, _at(5.0 * share, 0.2, 0.0), _at(5.0 * share, 0.1, 70.0))
-        assert [value == 5.0 for value in mass] == [full, full]
+        assert [mass_kg == 5.0 for mass_kg in mass] == [full, full]
     mass, angle = _masses_and_angles(plan, 0.0, 0.0)
     assert (mass.tolist(), angle.tolist()) == ([0.0, 0.0], [0.0, 0.0])
     free = with_fields(plan, {("webs", 0, "sector"): None})

@@ -33,10 +33,10 @@ def test_webs_of_a_group_carry_the_same_as_seen_from_their_own_cranks(mirror: bo
     assert webs.mirrored == (False, mirror, False, False)
     first = 0.7 * np.exp(1j * np.deg2rad(75.0))
     carried = webs.carried(np.array([first, 2.0]))
-    own = [np.rad2deg(np.angle(value)) - crank for value, crank in zip(carried[:3], _CRANKS, strict=True)]
+    own = [np.rad2deg(np.angle(unbalance)) - crank for unbalance, crank in zip(carried[:3], _CRANKS, strict=True)]
     expected = [55.0, -55.0 if mirror else 55.0, 55.0]
     assert [
-        (value - number + 180.0) % 360.0 - 180.0 for value, number in zip(own, expected, strict=True)
+        (angle - number + 180.0) % 360.0 - 180.0 for angle, number in zip(own, expected, strict=True)
     ] == pytest.approx([0.0] * 3, abs=1e-9)
     assert np.abs(carried) == pytest.approx([0.7, 0.7, 0.7, 2.0])
     assert np.all((webs.ahead_deg >= 0.0) & (webs.ahead_deg < 360.0))

@@ -62,9 +62,9 @@ def test_the_first_order_is_that_of_the_service(throws: list[dict[str, Any]], ro
 def test_two_unbalances_are_the_rotor(rotor: Moments, low: float, length: float) -> None:
     static = axial = 0j
     for fields in rotor.as_unbalances("rotor", low, low + length):
-        value = complex(fields["x_kg_m"], fields["y_kg_m"])
-        static += value
-        axial += fields["position_m"] * value
+        unbalance = complex(fields["x_kg_m"], fields["y_kg_m"])
+        static += unbalance
+        axial += fields["position_m"] * unbalance
     # analytic: they were chosen so
     assert static == pytest.approx(rotor.static_kg_m, abs=1e-11)
     assert axial == pytest.approx(rotor.axial_kg_m2, abs=1e-11)

@@ -79,11 +79,11 @@ def _themes(verdicts: list[Verdict]) -> Table:
 def _worst(verdicts: list[Verdict]) -> Table:
     table = Table("", "ordinary", "in case", "all", "in case")
 
-    def worst(chosen: list[Verdict], value: Callable[[Verdict], float]) -> tuple[str, str]:
+    def worst(chosen: list[Verdict], measure: Callable[[Verdict], float]) -> tuple[str, str]:
         if not chosen:
             return "", ""
-        verdict = max(chosen, key=value)
-        return f"{value(verdict):.1e}", escape(verdict.case.name)
+        verdict = max(chosen, key=measure)
+        return f"{measure(verdict):.1e}", escape(verdict.case.name)
 
     ordinary = [verdict for verdict in verdicts if verdict.case.ordinary]
     for name, value in _WORST:

@@ -1,8 +1,8 @@
 """``python -m tests.hard.boundary --count N``: ceilings on, and a hair to either side of, what can just be reached.
 
-Every machine is asked several times, its ceilings put at a place times 1 + d: at the smallest peaks that can be
-reached, at those without counterweights, at those of the optimum without ceilings, at the floor. Analytic: the
-smallest objective does not grow, and no ceiling gets out of reach, as the ceilings are raised.
+Every machine is asked several times, its ceilings put at a place times 1 + d. Places are the smallest peaks that can be
+reached, those without counterweights, those of the optimum without ceilings, and the floor. Analytic: the smallest
+objective does not grow, and no ceiling gets out of reach, as the ceilings are raised.
 """
 
 import argparse
@@ -170,10 +170,10 @@ def run(count: int, seed: int, distances: Sequence[float] = DISTANCES) -> list[L
     return [ladder for n in range(count) for ladder in ladders(np.random.default_rng((seed, n)), distances)]
 
 
-def summary(value: Sequence[Ladder], console: Console) -> None:
+def summary(ladders: Sequence[Ladder], console: Console) -> None:
     table = Table("place", "answers", "optimal", "infeasible", "inaccurate", "near", "of them inaccurate", "jumps", "s")
     for place in (*PLACES, "all"):
-        chosen = [ladder for ladder in value if place in (ladder.place, "all")]
+        chosen = [ladder for ladder in ladders if place in (ladder.place, "all")]
         rungs = [rung for ladder in chosen for rung in ladder.rungs]
         near = [rung for rung in rungs if abs(rung.distance) <= NEAR]
         statuses, undecided = (
@@ -190,7 +190,7 @@ def summary(value: Sequence[Ladder], console: Console) -> None:
             f"{max((rung.cpu_s for rung in rungs), default=0.0):.2f}",
         )
     console.print(table)
-    rungs = [rung for ladder in value for rung in ladder.rungs]
+    rungs = [rung for ladder in ladders for rung in ladder.rungs]
     console.print(dict(Counter(rung.method or rung.status for rung in rungs).most_common()))
     slow = sorted((rung.cpu_s for rung in rungs), reverse=True)
     console.print(

@@ -47,11 +47,11 @@ def _arm(web: Web, response: int) -> Number:
 def _least(data: Machine, slope: Vector, cost: Number) -> Number:
     """Minimum of sum (cost m_k + Re conj(w_k) u_k) over the limits: the best webs first, until the budget is spent."""
     gains = [(web.radius * web.support(-s) - cost, web.max_mass) for web, s in zip(data.webs, slope, strict=True)]
-    left, value = data.budget, ZERO
+    left, bound = data.budget, ZERO
     for gain, mass in sorted(gains, key=lambda pair: -pair[0]):
         if gain <= 0:
             break
         taken = mass if left is None else min(mass, left)
-        value -= gain * taken
+        bound -= gain * taken
         left = None if left is None else left - taken
-    return value
+    return bound

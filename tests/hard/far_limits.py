@@ -1,6 +1,6 @@
 """``python -m tests.hard.far_limits --count N``: a budget beside one web of 1e3 to 1e300 kg, answer by answer.
 
-The machine of the issue of false bounds: 10 kg at 1 m turn at 1 rad/s; a web of 2 m and 0.32 kg and one of 1 m with the
+The machine of the issue of false bounds: 10 kg at 1 m turn at 1 rad/s. A web of 2 m and 0.32 kg and one of 1 m with the
 far limit share a budget of 1 kg. Analytic: 10 - 2 * 0.32 - 0.68 = 8.68. Every answer goes through the independent
 checker. Exit code 1 if a bound is above that, a value below, an answer not optimal or a claim broken.
 """

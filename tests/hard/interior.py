@@ -100,8 +100,8 @@ def _combine(block: Block, vectors: list[Vector]) -> Vector:
     """sum_i G_i' v_i."""
     total = [ZERO] * len(block.cost)
     for cone, vector in zip(block.cones, vectors, strict=True):
-        for row, value in zip(cone.G, vector, strict=True):
-            total = [t + r * value for t, r in zip(total, row, strict=True)]
+        for row, factor in zip(cone.G, vector, strict=True):
+            total = [t + r * factor for t, r in zip(total, row, strict=True)]
     return total
 
 
@@ -123,7 +123,7 @@ class _Scaling:
         w = [(s[0] + z[0]) / (2 * gamma), *((a - b) / (2 * gamma) for a, b in zip(s[1:], z[1:], strict=True))]
         self.w = w
         scale = mp.sqrt(2 * (w[0] + 1))
-        self.v = [(w[0] + 1) / scale, *(value / scale for value in w[1:])]
+        self.v = [(w[0] + 1) / scale, *(component / scale for component in w[1:])]
 
     def times(self, x: Vector) -> Vector:
         """W x."""
@@ -144,7 +144,7 @@ class _Scaling:
 
 
 def _flip(x: Vector) -> Vector:
-    return [x[0], *(-value for value in x[1:])]
+    return [x[0], *(-component for component in x[1:])]
 
 
 def _hyperbolic(a: Vector, b: Vector) -> Number:
@@ -196,13 +196,13 @@ class _Systems:
         for through, r in zip(self.through, right, strict=True):
             rest = [value + dot(row, r) for value, row in zip(rest, through, strict=True)]
         p = _back(self.schur, rest) if rest else []
-        result = []
+        pivots = []
         for block, factor, r in zip(self.blocks, self.factors, right, strict=True):
             pull = r
-            for value, row in zip(p, block.coupling, strict=True):
-                pull = [a - value * b for a, b in zip(pull, row, strict=True)]
-            result.append(_back(factor, pull))
-        return result, p
+            for price, row in zip(p, block.coupling, strict=True):
+                pull = [a - price * b for a, b in zip(pull, row, strict=True)]
+            pivots.append(_back(factor, pull))
+        return pivots, p
 
 
 def _cholesky(upper: Matrix) -> Matrix:
@@ -211,13 +211,13 @@ def _cholesky(upper: Matrix) -> Matrix:
     lower: Matrix = [[ZERO] * n for _ in range(n)]
     for j in range(n):
         for i in range(j, n):
-            value = upper[j][i] - dot(lower[i][:j], lower[j][:j])
+            pivot = upper[j][i] - dot(lower[i][:j], lower[j][:j])
             if i == j:
-                if value <= 0:
+                if pivot <= 0:
                     raise NotConverged("the equations are singular at this precision")
-                lower[j][j] = mp.sqrt(value)
+                lower[j][j] = mp.sqrt(pivot)
             else:
-                lower[i][j] = value / lower[j][j]
+                lower[i][j] = pivot / lower[j][j]
     return lower
 
 
@@ -244,10 +244,10 @@ def _advance(blocks: list[Block], cones: list[Cone], rhs: Vector, p: Vector, gap
         lacking += [[s - v for s, v in zip(c.s, c.values(block.x), strict=True)] for c in block.cones]
     slope = []  # c + G'z + A'p
     for block in blocks:
-        value = [a + b for a, b in zip(block.cost, _combine(block, [c.z for c in block.cones]), strict=True)]
+        gradient = [a + b for a, b in zip(block.cost, _combine(block, [c.z for c in block.cones]), strict=True)]
         for multiplier, row in zip(p, block.coupling, strict=True):
-            value = [a + multiplier * b for a, b in zip(value, row, strict=True)]
-        slope.append(value)
+            gradient = [a + multiplier * b for a, b in zip(gradient, row, strict=True)]
+        slope.append(gradient)
 
     def direction(targets: list[Vector]) -> tuple[list[Vector], Vector, list[Vector], list[Vector]]:
         quotients = [_quotient(a, d) for a, d in zip(lam, targets, strict=True)]
@@ -256,10 +256,10 @@ def _advance(blocks: list[Block], cones: list[Cone], rhs: Vector, p: Vector, gap
             for scaling, r, q in zip(scalings, lacking, quotients, strict=True)
         ]
         right, at = [], 0
-        for block, value in zip(blocks, slope, strict=True):
+        for block, gradient in zip(blocks, slope, strict=True):
             part = _combine(block, moved[at : at + len(block.cones)])
             at += len(block.cones)
-            right.append([-a - b for a, b in zip(value, part, strict=True)])
+            right.append([-a - b for a, b in zip(gradient, part, strict=True)])
         dx, dp = systems.solve(right, missing)
         ds, dz, at = [], [], 0
         for block, step in zip(blocks, dx, strict=True):

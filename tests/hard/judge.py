@@ -115,11 +115,11 @@ def _judge_counterweights(
     after = data.after(u)
     sizes = [size * square for size in _sizes(data, u)]
     noise = 16 * EPS * sum((w * s for w, s in zip(_weights(objective), sizes, strict=True)), ZERO)
-    value = objective.value(after) * square
+    objective_value = objective.value(after) * square
     rest = objective.value(data.baseline) * square
     verdict.demand(
-        abs(value - certificate.objective) <= ROUNDING * rest + noise,
-        f"objective {certificate.objective!r} is {mp.nstr(value, 17)}",
+        abs(objective_value - certificate.objective) <= ROUNDING * rest + noise,
+        f"objective {certificate.objective!r} is {mp.nstr(objective_value, 17)}",
     )
     peaks = [peak * square for peak in _peaks(after)]
     pair = (answer.residual.after.force.peak_N, answer.residual.after.moment.peak_Nm)
@@ -132,8 +132,8 @@ def _judge_counterweights(
     noise += expected.noise
     # where there is nothing without counterweights (and a ceiling asks for some), their own effect is the measure
     rest = rest or sum((w * s for w, s in zip(_weights(objective), sizes, strict=True)), ZERO)
-    verdict.objective_error = _share(value - expected.objective, rest, noise)
-    above, below = value - expected.objective, expected.relaxed - value
+    verdict.objective_error = _share(objective_value - expected.objective, rest, noise)
+    above, below = objective_value - expected.objective, expected.relaxed - objective_value
     verdict.demand(
         above <= relative_gap * rest * (1 + ROUNDING) + noise, f"objective {verdict.objective_error:.2e} above"
     )
@@ -150,9 +150,9 @@ def _judge_counterweights(
             verdict.demand(error <= MASS_GAP, f"peak {name} {mp.nstr(peak, 9)}, must be {mp.nstr(right, 9)}")
 
 
-def _share(value: Number, rest: Number, noise: Number) -> float:
+def _share(error: Number, rest: Number, noise: Number) -> float:
     """A difference of objectives relative to rest; 0 where it is rounding of the machine's own data."""
-    return 0.0 if abs(value) <= noise or rest == 0 else float(value / rest)
+    return 0.0 if abs(error) <= noise or rest == 0 else float(error / rest)
 
 
 def _judge_limits(verdict: Verdict, answer: OptimizeAnswer, data: Machine, objective: Goal, u: list[Any]) -> None:
@@ -218,10 +218,12 @@ def _judge_infeasible(
         (report.smallest_force_lower_bound_N, report.smallest_force_N, abs(data.baseline.force[1])),
         (report.smallest_moment_lower_bound_Nm, report.smallest_moment_Nm, abs(data.baseline.moment[1])),
     )
-    for bound, value, floor in smallest:
-        verdict.demand(bound <= value, f"lower bound {bound!r} above the value {value!r}")
+    for bound, smallest_peak, floor in smallest:
+        verdict.demand(bound <= smallest_peak, f"lower bound {bound!r} above the value {smallest_peak!r}")
         limit = float(floor * data.omega_squared)
-        verdict.demand(value >= limit * (1 - 1e-12), f"smallest peak {value!r} below the floor {limit!r}")
+        verdict.demand(
+            smallest_peak >= limit * (1 - 1e-12), f"smallest peak {smallest_peak!r} below the floor {limit!r}"
+        )
     excess = _excess(data, objective, _unbalance(data, report.closest.counterweights))
     assert excess is not None
     verdict.objective_error = float(excess - expected.excess)

@@ -105,7 +105,7 @@ def machine(body: Body) -> Machine:
 
 def _cancelled(pair: list[Any], noise: Number) -> tuple[Any, Any]:
     """Phasors; exactly zero where what is left is the rounding of these numbers themselves."""
-    return tuple(mp.mpc(0) if abs(value) <= noise * mp.mpf(10) ** -60 else value for value in pair)
+    return tuple(mp.mpc(0) if abs(phasor) <= noise * mp.mpf(10) ** -60 else phasor for phasor in pair)
 
 
 def _reciprocating(data: Body) -> tuple[list[tuple[Any, Any, Number]], list[Number]]:

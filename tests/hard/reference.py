@@ -1,6 +1,6 @@
 """The optimum of one request, proven to 15 digits and more: what the service is compared with.
 
-Smallest objective, least mass among the optima, smallest excess over the ceilings: each by the interior point
+Smallest objective, least mass among the optima, smallest excess over the ceilings. Each is found by the interior point
 method of :mod:`tests.hard.interior`, each with its own lower bound from the multipliers, in the same numbers.
 """
 
@@ -128,8 +128,8 @@ class _Program:
             for row, ((response, _), s) in enumerate(zip(self.goal.ceilings, size, strict=True))
         )
         floors = tuple(-cap / s for (_, cap), s in zip(self.goal.ceilings, size, strict=True))
-        value, _ = _Program(self.data, Goal(terms, floors, (), False)).smallest_objective(_HAIR / 1000)
-        return value
+        smallest, _ = _Program(self.data, Goal(terms, floors, (), False)).smallest_objective(_HAIR / 1000)
+        return smallest
 
     def relaxed(self, share: Number) -> "_Program":
         """The program with every ceiling raised by a share of its size."""
@@ -141,8 +141,8 @@ class _Program:
         rest, floor = self.goal.value(self.data.baseline), max(self.goal.floors)
         if not self.used or (self._resting() and rest <= floor):
             return rest, [mp.mpc(0)] * len(self.reach)
-        value, _, u = self._solve(None, enough * max(abs(rest), self._unit()))
-        return value, u
+        smallest, _, u = self._solve(None, enough * max(abs(rest), self._unit()))
+        return smallest, u
 
     def least_mass(self, target: Number) -> tuple[Number, Number, Vector]:
         """Least mass with an objective of at most ``target``, its price in kg per unit of objective, counterweights."""
@@ -199,8 +199,8 @@ class _Program:
             shared.cost[-1] = ONE
         rhs = []
         for response in moving:
-            value = -self.co[response] / self.units[response]
-            rhs += [value.real, value.imag]
+            mass = -self.co[response] / self.units[response]
+            rhs += [mass.real, mass.imag]
         if budget:
             rhs.append(ZERO)
         best: dict[str, Any] = {}
@@ -212,14 +212,14 @@ class _Program:
             after = data.after(u)
             y, p, lam = self._multipliers(every[-1], unit, unit if target is None else mass_unit)
             if target is None:
-                value, bound = objective.value(after), objective_bound(data, objective, y, p, lam)
+                peak, bound = objective.value(after), objective_bound(data, objective, y, p, lam)
                 margin = enough
             else:
-                value = sum((abs(v) / web.radius for v, web in zip(u, data.webs, strict=True)), ZERO)
+                peak = sum((abs(v) / web.radius for v, web in zip(u, data.webs, strict=True)), ZERO)
                 bound = mass_bound(data, objective, y, p, lam, target)
-                margin = enough * value
-            best.update(value=value, u=u, price=sum(lam, ZERO), gap=value - bound)
-            return value - bound <= margin and self._violation(u, after, target) <= _EXACT
+                margin = enough * peak
+            best.update(value=peak, u=u, price=sum(lam, ZERO), gap=peak - bound)
+            return peak - bound <= margin and self._violation(u, after, target) <= _EXACT
 
         try:
             solve([*blocks, shared], rhs, proven)

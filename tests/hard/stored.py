@@ -37,11 +37,11 @@ def write(cases: Sequence[Case], workers: int = 2) -> list[str]:
     missing = {key: case for case in cases if (key := digest(case.body)) not in document}
     unproven = []
     with ProcessPoolExecutor(workers) as executor:
-        for (key, case), value in zip(missing.items(), executor.map(_computed, missing.values()), strict=True):
-            if isinstance(value, str):
-                unproven.append(f"{case.name}: {value}")
+        for (key, case), result in zip(missing.items(), executor.map(_computed, missing.values()), strict=True):
+            if isinstance(result, str):
+                unproven.append(f"{case.name}: {result}")
             else:
-                document[key] = value
+                document[key] = result
     names = {digest(case.body): case.name for case in cases if digest(case.body) in document}
     lines = (f"{json.dumps(key)}: {json.dumps({**document[key], 'case': name})}" for key, name in names.items())
     _FILE.write_text("{\n" + ",\n".join(lines) + "\n}\n")
@@ -55,15 +55,15 @@ def _computed(case: Case) -> dict[str, object] | str:
         return str(error)
 
 
-def _encoded(value: Reference) -> dict[str, object]:
+def _encoded(result: Reference) -> dict[str, object]:
     return {
         field.name: part if part is None or isinstance(part, bool) else mp.nstr(part, _DIGITS)
-        for field in fields(value)
-        for part in [getattr(value, field.name)]
+        for field in fields(result)
+        for part in [getattr(result, field.name)]
     }
 
 
-def _decoded(value: dict[str, object]) -> Reference:
+def _decoded(fields: dict[str, object]) -> Reference:
     return Reference(
-        **{name: mp.mpf(part) if isinstance(part, str) else part for name, part in value.items() if name != "case"}
+        **{name: mp.mpf(part) if isinstance(part, str) else part for name, part in fields.items() if name != "case"}
     )

@@ -1,8 +1,8 @@
 """``python -m tests.hard.tampered``: falsified answers through the independent checker.
 
-Random machines are answered, and each answer is falsified in every way of tests/verification/tampering.py: a mass, an
-angle, a residual, the objective or a bound changed by 1e-6 of itself, a limit broken by 1e-6. Prints how many were
-caught, by what was falsified; exit code 1 if any was not, or if an answer as it was given is not held.
+Random machines are answered, and each answer is falsified in every way of tests/verification/tampering.py. There are a
+mass, an angle, a residual, the objective or a bound changed by 1e-6 of itself, a limit broken by 1e-6. Prints how many
+were caught, by what was falsified; exit code 1 if any was not, or if an answer as it was given is not held.
 """
 
 import argparse

@@ -6,20 +6,19 @@ Expected numbers are analytic (what the bounds of one answer say of another) or 
 """
 
 import json
-import os
 from typing import Any
 
-from hypothesis import HealthCheck, given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from schemas.answer.answers import OptimizeAnswer
 from tests.hard.cases.case import Body, Case
 from tests.hard.judge import judge
+from tests.hard.searches import search
 from tests.hard.wild import requests
 from tests.optimize.machines import random_machine
 from tests.verification.checking import optimized
 
-_COUNT = int(os.environ.get("HARD_SEARCH", "0"))
 #: looser than the default, the default, tighter than it
 GAPS = (1e-2, 1e-6, 1e-10)
 
@@ -30,17 +29,6 @@ _OBJECTIVES: st.SearchStrategy[dict[str, Any]] = st.fixed_dictionaries(
         "least_mass": st.booleans(),
     }
 )
-
-
-def _search(count: int) -> settings:
-    # at night ten times as many, by day two thirds
-    return settings(
-        max_examples=_COUNT or count * settings.default.max_examples // 30,
-        derandomize=not _COUNT,
-        database=None,
-        deadline=None,
-        suppress_health_check=list(HealthCheck),
-    )
 
 
 def _answers(body: Body) -> list[OptimizeAnswer]:
@@ -81,7 +69,7 @@ def _consistent(body: Body, answers: list[OptimizeAnswer]) -> None:
                 assert certificate.lower_bound <= second_proof.objective + slack, json.dumps(body)
 
 
-@_search(24)
+@search(24)
 @given(st.integers(0, 10**9), _OBJECTIVES)
 def test_machines_of_everyday_reach_every_gap(seed: int, objective: dict[str, Any]) -> None:
     """Optimal at 1e-2, 1e-6 and 1e-10: whatever is asked is reached, and proven."""
@@ -94,7 +82,7 @@ def test_machines_of_everyday_reach_every_gap(seed: int, objective: dict[str, An
         assert answer.certificate.relative_gap <= gap, (gap, answer.certificate, json.dumps(body))
 
 
-@_search(15)
+@search(15)
 @given(requests())
 def test_wild_machines_say_what_was_reached(body: Body) -> None:
     """Whatever the machine: a status that follows from the certificate, and bounds that hold for all three."""

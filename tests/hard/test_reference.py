@@ -23,8 +23,8 @@ def _square(body: Body) -> mp.mpf:
     return (mp.mpf(body["machine"]["speed_rpm"]) * mp.pi / 30) ** 2
 
 
-def _close(value: mp.mpf, right: mp.mpf, scale: mp.mpf | None = None) -> bool:
-    return abs(value - right) <= _TIGHT * (abs(right) if scale is None else scale)
+def _close(left: mp.mpf, right: mp.mpf, scale: mp.mpf | None = None) -> bool:
+    return abs(left - right) <= _TIGHT * (abs(right) if scale is None else scale)
 
 
 @pytest.mark.parametrize("angle", [0, 90, 180, 270, -90, 36000090])

@@ -6,12 +6,11 @@ Expected numbers are independent (the 100-digit reference) or analytic (symmetri
 """
 
 import json
-import os
 import random
 from collections.abc import Sequence
 from typing import Any
 
-from hypothesis import HealthCheck, given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from schemas.answer.answers import OptimizeAnswer
@@ -21,23 +20,12 @@ from tests.hard.interior import mp
 from tests.hard.judge import MASS_GAP, judge
 from tests.hard.program import goal, machine
 from tests.hard.reference import reference
+from tests.hard.searches import search
 from tests.hard.wild import in_other_units, requests
 from tests.verification.checking import optimized
 
-_COUNT = int(os.environ.get("HARD_SEARCH", "0"))
 #: what is not certified says so: that is no fault of a wild machine
 _HONEST = ("inaccurate, must be", "certified gap")
-
-
-def _search(count: int) -> settings:
-    # at night ten times as many, by day two thirds
-    return settings(
-        max_examples=_COUNT or count * settings.default.max_examples // 30,
-        derandomize=not _COUNT,
-        database=None,
-        deadline=None,
-        suppress_health_check=list(HealthCheck),
-    )
 
 
 def _record(body: Body, faults: Sequence[str] = ()) -> str:
@@ -53,7 +41,7 @@ def _answer(body: Body) -> OptimizeAnswer:
         raise
 
 
-@_search(8)
+@search(8)
 @given(requests(max_webs=4))
 def test_no_answer_is_wrong(body: Body) -> None:
     """Independent: whatever the status, bounds, objective, limits, masses and peaks agree with the reference."""
@@ -70,7 +58,7 @@ def _above(fault: str) -> bool:
     return (fault.startswith("objective") and fault.endswith("above")) or "kg, least is" in fault
 
 
-@_search(30)
+@search(30)
 @given(requests(ceilings=False), st.randoms(use_true_random=False))
 def test_no_point_is_below_the_bound(body: Body, rng: random.Random) -> None:
     """Analytic: random points within the limits never beat the certified bound."""
@@ -89,11 +77,11 @@ def test_no_point_is_below_the_bound(body: Body, rng: random.Random) -> None:
             if web.cosine is not None:
                 turn = web.centre * mp.mpc(web.cosine, web.sine * rng.choice([-1, 1]))
             u[k] = mass * web.radius * turn
-        value = objective.value(data.after(u))
-        assert bound <= value * (1 + mp.mpf("1e-13")) + sum(data.noise), _record(body)
+        peak = objective.value(data.after(u))
+        assert bound <= peak * (1 + mp.mpf("1e-13")) + sum(data.noise), _record(body)
 
 
-@_search(30)
+@search(30)
 @given(requests())
 def test_optimal_keeps_its_word(body: Body) -> None:
     """Analytic: `optimal` means that gap, mass and limits hold in 100-digit numbers."""
@@ -103,7 +91,7 @@ def test_optimal_keeps_its_word(body: Body) -> None:
         assert not verdict.faults, _record(body, verdict.faults)
 
 
-@_search(30)
+@search(30)
 @given(requests(), st.integers(-12, 12), st.integers(-6, 6))
 def test_units_by_powers_of_two_change_no_bit(body: Body, mass: int, length: int) -> None:
     """Analytic: kilograms and metres are counted in other units, and every figure only changes its exponent."""
@@ -126,7 +114,7 @@ def test_units_by_powers_of_two_change_no_bit(body: Body, mass: int, length: int
 def _inside(body: Body) -> bool:
     """Whether the request is still within the ranges of the fields, and no length is so small that it counts as 0."""
     data = body["machine"]
-    if any(0 < abs(entry["position_m"]) < 1e-200 for entry in (*data["throws"], *data["webs"])):
+    if any(0 < abs(plane["position_m"]) < 1e-200 for plane in (*data["throws"], *data["webs"])):
         return False
     try:
         OptimizeRequest.model_validate(body)
@@ -135,7 +123,7 @@ def _inside(body: Body) -> bool:
     return True
 
 
-@_search(24)
+@search(24)
 @given(requests(), st.randoms(use_true_random=False))
 def test_the_order_of_webs_does_not_matter(body: Body, rng: random.Random) -> None:
     """Analytic: objective and mass are those of the same machine."""
@@ -144,7 +132,7 @@ def test_the_order_of_webs_does_not_matter(body: Body, rng: random.Random) -> No
     _same(body, {**body, "machine": {**body["machine"], "webs": webs}})
 
 
-@_search(24)
+@search(24)
 @given(requests(max_webs=4), st.integers(0, 3))
 def test_a_web_in_two_halves_is_the_same_web(body: Body, which: int) -> None:
     """Analytic: two webs of half the limit in one place do what one did."""

@@ -94,7 +94,7 @@ def in_other_units(body: Body, mass: float, length: float) -> Body:
         for name in ("position_m", "counterweight_radius_m"):
             scale(plane, name, length)
         scale(plane, "max_mass_kg", mass)
-    places = [entry["position_m"] for entry in (*data["throws"], *data["webs"])]
+    places = [plane["position_m"] for plane in (*data["throws"], *data["webs"])]
     if objective.get("moment_weight") is None and max(places) == min(places):
         # without a span it is 1 of the metres that are no longer counted in
         objective["moment_weight"] = 1.0

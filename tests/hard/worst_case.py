@@ -111,11 +111,11 @@ def evaluated(case: Case, reference: Reference, answer: OptimizeAnswer) -> Itera
         if reference.feasible and not _ceilings(case.body):
             yield "infeasible without ceilings"
         return
-    value, size = _worst(case.body, answer)
-    if abs(value - answer.certificate.objective) > _ROUNDING * size + reference.noise:
-        yield f"objective {answer.certificate.objective!r} is {mp.nstr(value, 17)}"
-    if reference.relaxed is not None and value < reference.relaxed - reference.noise - _ROUNDING * size:
-        yield f"objective {mp.nstr(value, 17)} is below {mp.nstr(reference.relaxed, 17)}, that without tolerances"
+    claim, size = _worst(case.body, answer)
+    if abs(claim - answer.certificate.objective) > _ROUNDING * size + reference.noise:
+        yield f"objective {answer.certificate.objective!r} is {mp.nstr(claim, 17)}"
+    if reference.relaxed is not None and claim < reference.relaxed - reference.noise - _ROUNDING * size:
+        yield f"objective {mp.nstr(claim, 17)} is below {mp.nstr(reference.relaxed, 17)}, that without tolerances"
     price = answer.price_of_robustness
     if price is None:
         yield "no price"

@@ -48,7 +48,7 @@ def error(got: Any, exact: Any, size: Number | None = None) -> float:
     entries = list(exact) if isinstance(exact, list | tuple) else [exact]
     assert len(values) == len(entries), (len(values), len(entries))
     if size is None:
-        size = max(abs(entry) for entry in entries)
+        size = max(abs(number) for number in entries)
     off = max((abs(mp.mpmathify(v) - w) for v, w in zip(values, entries, strict=True)), default=mp.mpf(0))
     if not mp.isfinite(off):
         return float("inf")

@@ -1,8 +1,8 @@
 """First-order phasors, orders 2, 4 and 6, peaks and couples of machines whose rows cancel.
 
-A force is measured against the sum of what the rows would do alone; a couple against the same with the arms from the
-middle of the machine, plus the force that is left times the way to the reference plane. Reference: forces of the rows
-over the turn at 50 digits, and harmonics from elliptic integrals and their recurrence (the mechanics have
+A force is measured against the sum of what the rows would do alone. A couple is measured against the same with the arms
+from the middle of the machine, plus the force that is left times the way to the reference plane. Reference: forces of
+the rows over the turn at 50 digits, and harmonics from elliptic integrals and their recurrence (the mechanics have
 hypergeometric functions).
 """
 

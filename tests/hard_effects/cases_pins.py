@@ -1,8 +1,8 @@
 """Loads of the anti-rotation pins of whole answers. Every pin is measured against its own largest load over the turn.
 
-A pattern near a line, or of pins close together, multiplies the last digit of the pins' angles and radii: where the
-places leave a line by a share w of their span, loads change by 1/w units for a unit in the last place of the data.
-The demand grows with that condition, and with nothing else.
+A pattern near a line, or of pins close together, multiplies the last digit of the pins' angles and radii. Where the
+places leave a line by a share w of their span, loads change by 1/w units for a unit in the last place of the data. The
+demand grows with that condition, and with nothing else.
 """
 
 from collections.abc import Iterator
@@ -151,7 +151,7 @@ def _elastic(case: Pins) -> Iterator[Finding]:
 def _contact(case: Pins) -> Iterator[Finding]:
     answer, exact = _answer({"pins": case.pins, "rotation_torque_Nm": case.torque}), Pattern(case.pins, case.torque)
     contacts = [exact.contact(a) for a in answer.angle_deg]
-    largest = max(abs(value) for line in contacts for value in line)
+    largest = max(abs(force) for line in contacts for force in line)
     off = max(
         abs(mp.mpf(pin.load_N[t]) - line[k]) for t, line in enumerate(contacts) for k, pin in enumerate(answer.pins)
     )

@@ -20,7 +20,7 @@ def _measure(hard: Hard) -> Iterator[Finding]:
     work = [c.work if c.closed else mp.mpf(0) for c in chambers]
     got = [c.indicated_work_J for row in answer.gas.rows for c in row.chambers]
     # the work of compression, of which delivery is a part: small where the pressures are nearly equal
-    natural = max((abs(value) for value in work), default=mp.mpf(0))
+    natural = max((abs(share) for share in work), default=mp.mpf(0))
     yield Finding("indicated work", error(got, work, natural), ALGEBRAIC * hard.condition)
     mean_size = size / (2 * mp.pi)
     torque = answer.torque

@@ -278,11 +278,11 @@ def _losses(body: dict[str, Any], lines: list[Row]) -> list[Number]:
     data = body["friction"]
     indicated_power_W = data.get("indicated_power_W")
     power = (
-        [mp.mpf(value) for value in indicated_power_W]
+        [mp.mpf(power) for power in indicated_power_W]
         if indicated_power_W
         else [sum(c.work for c in row.chambers if c.closed) * row.omega / (2 * mp.pi) for row in lines]
     )
-    return [value * (1 / mp.mpf(data["mechanical_efficiency"]) - 1) for value in power]
+    return [power_share * (1 / mp.mpf(data["mechanical_efficiency"]) - 1) for power_share in power]
 
 
 def _with_friction(body: dict[str, Any], lines: list[Row]) -> list[Row]:
@@ -290,10 +290,10 @@ def _with_friction(body: dict[str, Any], lines: list[Row]) -> list[Row]:
     if not data:
         return lines
     if data.get("mechanical_efficiency") is None:
-        force = [mp.mpf(value) for value in data.get("reciprocating_force_N") or [0.0] * len(lines)]
+        force = [mp.mpf(friction) for friction in data.get("reciprocating_force_N") or [0.0] * len(lines)]
     else:
         share = mp.mpf(data.get("reciprocating_share", 0.7))
         # two strokes a turn
         losses = zip(_losses(body, lines), lines, strict=True)
         force = [share * lost * 2 * mp.pi / row.omega / (4 * row.radius) for lost, row in losses]
-    return [Row(**{**row.__dict__, "friction": value}) for row, value in zip(lines, force, strict=True)]
+    return [Row(**{**row.__dict__, "friction": friction}) for row, friction in zip(lines, force, strict=True)]

@@ -99,7 +99,7 @@ class Pattern:
         tried = {mp.mpf(k) for k in range(0, 360, 2)} | set(knots)
         for centre in (axis, axis + 180):
             near = [side * mp.mpf(2) ** -k for k in range(30) for side in (-1, 1)]
-            tried |= {mp.fmod(centre + value + 720, 360) for value in (0, *near)}
+            tried |= {mp.fmod(centre + offset + 720, 360) for offset in (0, *near)}
         edges = [*sorted(tried), mp.mpf(360) - mp.mpf(10) ** -40]
         actual_edges = list(edges)
         tiny = mp.mpf(10) ** -30

@@ -84,7 +84,7 @@ class Machine:
             for centre, distance in near:
                 while distance < 0.1:
                     own = (centre - distance - row.ahead, centre + distance - row.ahead)
-                    grid |= {mp.fmod(value + 4 * mp.pi, 2 * mp.pi) for value in own}
+                    grid |= {mp.fmod(angle + 4 * mp.pi, 2 * mp.pi) for angle in own}
                     distance *= 1.5
         return sorted(grid)
 
@@ -96,11 +96,11 @@ class Machine:
         eps = mp.mpf(10) ** -40
         tried = list(edges)
         with mp.workdps(20):
-            value = [self.torque(edge) - self.mean for edge in edges]
+            torque = [self.torque(edge) - self.mean for edge in edges]
         for k in range(len(edges) - 1):
-            left = self.torque(edges[k] + eps) - self.mean if edges[k] in jumps else value[k]
+            left = self.torque(edges[k] + eps) - self.mean if edges[k] in jumps else torque[k]
             after = edges[k + 1]
-            right = self.torque(after - eps) - self.mean if after in jumps or k == len(edges) - 2 else value[k + 1]
+            right = self.torque(after - eps) - self.mean if after in jumps or k == len(edges) - 2 else torque[k + 1]
             if left * right < 0:
                 tried.append(self._crossing(edges[k] + eps, after - eps))
         energy = [self.running(theta) for theta in tried]

@@ -22,7 +22,7 @@ _STEP = 3 if ALL else 6
 @pytest.mark.parametrize(
     "case",
     part(4, (case for case in CASES if case.subject not in _LONG))
-    + [value for subject in _LONG for value in every(_STEP, (case for case in CASES if case.subject == subject))],
+    + [instance for subject in _LONG for instance in every(_STEP, (case for case in CASES if case.subject == subject))],
     ids=lambda case: case.id,
 )
 def test_errors_against_fifty_digits(case: Case) -> None:

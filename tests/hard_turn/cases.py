@@ -62,8 +62,8 @@ def bearings() -> Iterator[Case]:
         yield case(f"bearings/two-{shaft}", "both models are one", body, BEARINGS, shaft=shaft)
         body = machines.three(gas=True)
         for place in ("throws", "webs", "bearings"):
-            for entry in body[place]:
-                entry["position_m"] += 1e4
+            for part in body[place]:
+                part["position_m"] += 1e4
         yield case(f"bearings/far-from-zero-{shaft}", "lengths are small differences", body, BEARINGS, shaft=shaft)
         body = machines.twin()
         body["bearings"] = [{"name": str(k), "position_m": -0.06 + 0.02 * k} for k in range(12)]
@@ -120,8 +120,8 @@ def spans() -> Iterator[Case]:
         for count in (1, 3):
             body = machines.shaft([0.0, 120.0, 240.0][:count], gas=True)
             for place in ("throws", "webs"):
-                for entry in body[place]:
-                    entry["position_m"] = 0.0
+                for part in body[place]:
+                    part["position_m"] = 0.0
             for goal, objective in (("bearings", BEARINGS), ("bending", BENDING), ("both", {"bearing_weight": 1})):
                 yield case(f"spans/none-{count}-{goal}-{shaft}", "all planes are one", body, objective, shaft=shaft)
 

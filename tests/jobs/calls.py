@@ -118,9 +118,9 @@ class Client:
             self._submitted += 1
             self.open[f"{self.name}-{self._submitted}"] = self.chance.choice(SWEEPS)
         key, sweep = next(iter(self.open.items()))
-        value = self._call("submit", key, "POST", "/v1/sweeps", sweep.body, sweep)
-        if value.document is not None:
-            self.sweeps[value.document["id"]] = sweep
+        call = self._call("submit", key, "POST", "/v1/sweeps", sweep.body, sweep)
+        if call.document is not None:
+            self.sweeps[call.document["id"]] = sweep
             del self.open[key]
 
     def state(self, job: str) -> Call:
@@ -184,17 +184,17 @@ class Client:
         try:
             status, fields, content = send(wire.where, method, path, body, **headers)
         except (OSError, http.client.HTTPException):
-            value = Call(service, action, subject, began, time.monotonic(), cut=identity in wire.cut)
+            call = Call(service, action, subject, began, time.monotonic(), cut=identity in wire.cut)
         else:
             ended = time.monotonic()
             about = _understood(action, status, fields, content, sweep or self.sweeps.get(subject), span)
-            value = Call(service, action, subject, began, ended, status, **about)
-        self.calls.append(value)
+            call = Call(service, action, subject, began, ended, status, **about)
+        self.calls.append(call)
         if identity in wire.doubled:
-            self.calls.append(Call(service, action, subject, began, value.ended, cut=True))
-        if action != "submit" and value.status in (204, 404):
+            self.calls.append(Call(service, action, subject, began, call.ended, cut=True))
+        if action != "submit" and call.status in (204, 404):
             self.gone.add(subject)
-        return value
+        return call
 
 
 def _understood(

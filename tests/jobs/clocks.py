@@ -24,7 +24,7 @@ from tests.jobs.sweeps import analyses
 
 DAY_S = 86_400
 JUMPS_S = (DAY_S, -DAY_S, 31 * DAY_S, -31 * DAY_S)
-#: what waits for a clock that jumped waits for a day at least; all that is done before did not, however long a machine
+#: what waits for a clock that jumped waits for a day at least. All that is done before did not, however long a machine
 #: without a free core has taken [s]
 PATIENCE_S = DAY_S / 4
 SWEEP = analyses(5, 10)

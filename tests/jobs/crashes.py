@@ -1,8 +1,8 @@
 """Crash at every system call on the path of jobs from their order to their end.
 
-A process is forked for each point, does all that services do to jobs, and is killed at the point: before a system
-call, or half way through one that writes. Then another one finds out what is there, and goes on with it. This is the
-end of a process, not of the machine: what was written but not synchronised stays.
+A process is forked for each point, does all that services do to jobs, and is killed at the point. A point is before a
+system call, or half way through one that writes. Then another one finds out what is there, and goes on with it. This is
+the end of a process, not of the machine: what was written but not synchronised stays.
 
 ``python -m tests.jobs.crashes`` crashes at every point, with ``--points`` at so many, evenly spread; the tests crash at
 a few.

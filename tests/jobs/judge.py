@@ -57,7 +57,8 @@ def _away(call: Call, times: Sequence[tuple[float, float]]) -> bool:
 def _cut_by_removal(call: Call, calls: Sequence[Call]) -> bool:
     """Whether rows were removed while they were read."""
     return call.action in ("rows", "kept") and any(
-        entry.action == "end" and entry.subject == call.subject and entry.began <= call.ended for entry in calls
+        deletion.action == "end" and deletion.subject == call.subject and deletion.began <= call.ended
+        for deletion in calls
     )
 
 

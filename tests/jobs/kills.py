@@ -69,7 +69,7 @@ def kill(
             assert (state["failed"], state["invalid"]) == (0, expected["status"].to_pylist().count("invalid"))
             assert last.rows(path).equals(expected)
         listed = last.read("/v1/sweeps")["sweeps"]
-        assert sorted(entry["links"]["self"] for entry in listed) == sorted(accepted.values())
+        assert sorted(state["links"]["self"] for state in listed) == sorted(accepted.values())
     return len(accepted), midway
 
 

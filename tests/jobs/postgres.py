@@ -64,7 +64,7 @@ def _user() -> pwd.struct_passwd | None:
     """Somebody who is not root, as whom the server refuses to run; None for us if we are not."""
     if os.geteuid() != 0:
         return None
-    entries = {entry.pw_name: entry for entry in pwd.getpwall()}
+    entries = {user.pw_name: user for user in pwd.getpwall()}
     for name in ("postgres", "nobody"):
         if name in entries:
             return entries[name]

@@ -23,8 +23,8 @@ def rows(start: int, stop: int, failed: tuple[int, ...] = ()) -> pa.Table:
     """Analytic: the value of row i is i / 7."""
     index = range(start, stop)
     status = ["failed" if i in failed else "optimal" for i in index]
-    value = [None if i in failed else i / 7 for i in index]
-    return pa.table([pa.array(index, pa.int64()), pa.array(value, pa.float64()), status], schema=SCHEMA)
+    peak = [None if i in failed else i / 7 for i in index]
+    return pa.table([pa.array(index, pa.int64()), pa.array(peak, pa.float64()), status], schema=SCHEMA)
 
 
 def run(kind: str, request: bytes, start: int, stop: int, flag: str) -> ChunkResult:

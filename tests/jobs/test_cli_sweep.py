@@ -86,11 +86,11 @@ def test_an_interrupted_sweep_goes_on(tmp_path: Path, ending: signal.Signals) ->
             assert time.monotonic() < deadline
             time.sleep(0.01)
         first.send_signal(ending)
-        _, value = first.communicate(timeout=180)
+        _, printed = first.communicate(timeout=180)
     assert not out.exists()
     if ending == signal.SIGINT:
         assert first.returncode == 130
-        assert "the same command goes on from there" in value
+        assert "the same command goes on from there" in printed
     process = here(written(tmp_path, optimisations()), "-o", str(out))
     assert (process.exit_code, "another sweep" in process.stderr) == (2, True)
     command = run(written(tmp_path, body), "-o", str(out), "--workers", "2")

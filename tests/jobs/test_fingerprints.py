@@ -102,11 +102,11 @@ def changed(body: dict[str, Any]) -> dict[str, Any]:
 
 
 @given(_VALUES, st.integers(0, 4))
-def test_a_fingerprint_is_that_of_the_json(value: Any, indent: int) -> None:
-    first = fingerprint("k", json.dumps(value, sort_keys=True).encode())
-    assert first == fingerprint("k", b"\xef\xbb\xbf" + json.dumps(value, indent=indent, ensure_ascii=False).encode())
-    assert first != fingerprint("j", json.dumps(value).encode())
-    assert first != fingerprint("k", json.dumps([value]).encode())
+def test_a_fingerprint_is_that_of_the_json(document: Any, indent: int) -> None:
+    first = fingerprint("k", json.dumps(document, sort_keys=True).encode())
+    assert first == fingerprint("k", b"\xef\xbb\xbf" + json.dumps(document, indent=indent, ensure_ascii=False).encode())
+    assert first != fingerprint("j", json.dumps(document).encode())
+    assert first != fingerprint("k", json.dumps([document]).encode())
     # the column of the database
     assert len(first) == 64
 

@@ -95,12 +95,12 @@ def test_no_cell_of_csv_is_a_formula_whatever_the_separator_is_taken_for(rows: l
 
 @given(st.lists(st.floats(allow_nan=False, allow_infinity=False), min_size=1))
 def test_every_double_survives_as_text(values: list[float]) -> None:
-    rows = table([{"index": i, "force_peak_N": value} for i, value in enumerate(values)])
+    rows = table([{"index": i, "force_peak_N": peak} for i, peak in enumerate(values)])
     as_json = [json.loads(line)["force_peak_N"] for line in encoded("ndjson", rows).splitlines()]
     as_csv = [row["force_peak_N"] for row in csv.DictReader(io.StringIO(encoded("csv", rows).decode()))]
-    for value, first, second in zip(values, as_json, as_csv, strict=True):
-        assert (float(first), float(second)) == (value, value)
-        assert math.copysign(1, float(second)) == math.copysign(1, value)
+    for figure, first, second in zip(values, as_json, as_csv, strict=True):
+        assert (float(first), float(second)) == (figure, figure)
+        assert math.copysign(1, float(second)) == math.copysign(1, figure)
 
 
 @pytest.mark.parametrize("name", ["ndjson", "csv", "parquet", "arrow"])
@@ -114,9 +114,9 @@ def test_memory_stays_flat(name: str) -> None:
     def batches(count: int) -> Iterator[pa.RecordBatch]:
         for k in range(count):
             index = pa.array(range(1000 * k, 1000 * k + 1000), pa.int64())
-            value = index.cast(pa.float64())
+            peak = index.cast(pa.float64())
             texts = pa.array(["x"] * 1000)
-            yield pa.RecordBatch.from_arrays([index, value, texts, texts], schema=SCHEMA)
+            yield pa.RecordBatch.from_arrays([index, peak, texts, texts], schema=SCHEMA)
 
     def peak(count: int) -> int:
         arrow_before = pa.total_allocated_bytes()

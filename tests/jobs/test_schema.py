@@ -95,9 +95,9 @@ def test_a_database_of_the_first_release_goes_on(settings: Settings) -> None:
                 assert pa.Table.from_batches(rows.batches).equals(expected)
         best = jobs.get(BEST)
         assert (best.selected, best.kept) == (400, 3)
-        value = pa.Table.from_batches(jobs.selection(best, jobs.schema(best)).batches)
-        values = sorted(value for value in expected["force_peak_N"].to_pylist() if value is not None)
-        assert value["force_peak_N"].to_pylist() == values[:3]
+        selection = pa.Table.from_batches(jobs.selection(best, jobs.schema(best)).batches)
+        values = sorted(peak for peak in expected["force_peak_N"].to_pylist() if peak is not None)
+        assert selection["force_peak_N"].to_pylist() == values[:3]
         # what was read has a digest now, and is verified from now on
         assert all(piece.digest for piece in desk._parts.store.pieces(DONE))
         assert json.loads(jobs.schema(best).metadata[b"counterweight.request"])["top"]["count"] == 3
@@ -109,7 +109,14 @@ def test_a_database_of_the_first_release_goes_on(settings: Settings) -> None:
     again.close()
 
 
-def test_a_database_without_counts_of_invalid_rows_goes_on(settings: Settings) -> None:
+@pytest.mark.parametrize(
+    ("number", "columns", "counts"),
+    # what was counted together stays so
+    [(2, ("invalid", "infeasible"), {"failed": 7}), (3, ("infeasible",), {"failed": 7, "invalid": 2})],
+)
+def test_a_database_without_counts_of_some_rows_goes_on(
+    settings: Settings, number: int, columns: tuple[str, ...], counts: dict[str, int]
+) -> None:
     write_1(settings)
     old = JobService(settings)
     old.of().get(DONE)
@@ -117,35 +124,15 @@ def test_a_database_without_counts_of_invalid_rows_goes_on(settings: Settings) -
     engine = engine_of(settings)
     with engine.begin() as connection:
         for table in ("jobs", "chunks"):
-            for column in ("invalid", "infeasible"):
+            for column in columns:
                 connection.execute(text(f"ALTER TABLE {table} DROP COLUMN {column}"))
-        connection.execute(text("UPDATE schema SET number = 2"))
-        connection.execute(text("UPDATE jobs SET failed = 7"))
+        connection.execute(text(f"UPDATE schema SET number = {number}"))
+        connection.execute(text("UPDATE jobs SET " + ", ".join(f"{name} = {count}" for name, count in counts.items())))
     desk = JobService(settings)
     task = desk.of().get(DONE)
     desk.close()
-    # what was counted together stays so
-    assert (task.done, task.failed, task.invalid, task.infeasible) == (400, 7, 0, 0)
-    with engine.connect() as connection:
-        assert connection.scalar(text("SELECT number FROM schema")) == NUMBER
-    engine.dispose()
-
-
-def test_a_database_without_counts_of_infeasible_rows_goes_on(settings: Settings) -> None:
-    write_1(settings)
-    old = JobService(settings)
-    old.of().get(DONE)
-    old.close()
-    engine = engine_of(settings)
-    with engine.begin() as connection:
-        for table in ("jobs", "chunks"):
-            connection.execute(text(f"ALTER TABLE {table} DROP COLUMN infeasible"))
-        connection.execute(text("UPDATE schema SET number = 3"))
-        connection.execute(text("UPDATE jobs SET failed = 7, invalid = 2"))
-    desk = JobService(settings)
-    value = desk.of().get(DONE)
-    desk.close()
-    assert (value.done, value.failed, value.invalid, value.infeasible) == (400, 7, 2, 0)
+    expected = (400, counts["failed"], counts.get("invalid", 0), 0)
+    assert (task.done, task.failed, task.invalid, task.infeasible) == expected
     with engine.connect() as connection:
         assert connection.scalar(text("SELECT number FROM schema")) == NUMBER
     engine.dispose()

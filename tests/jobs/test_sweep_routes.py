@@ -77,12 +77,12 @@ def test_cancel_then_remove(client: TestClient) -> None:
     assert (cancelled.status_code, cancelled.json()["state"]) == (200, "cancelled")
     if running.headers["sweep-state"] == "running":
         assert running.headers["sweep-complete"] == "false"
-    value = cancelled.json()["done"]
+    count = cancelled.json()["done"]
     rows = pa.ipc.open_stream(client.get(f"{path}/results?columns=index&format=arrow").content).read_all()
     index = rows["index"].to_pylist()
-    assert (len(index), index) == (value, sorted(set(index)))
-    assert 0 < value < 9_000_000
-    assert client.get(path).json()["done"] == value
+    assert (len(index), index) == (count, sorted(set(index)))
+    assert 0 < count < 9_000_000
+    assert client.get(path).json()["done"] == count
     assert client.delete(path).status_code == 204
     for answer in (client.get(path), client.delete(path), client.get(f"{path}/results"), client.get(f"{path}/events")):
         assert (answer.status_code, answer.json()["title"]) == (404, "Unknown sweep")
@@ -156,9 +156,9 @@ def test_the_list(client: TestClient, sweep: str) -> None:
         page = client.get(following).json()
         listed += page["sweeps"]
         following = page["next"]
-    created = [entry["created_at"] for entry in listed]
+    created = [state["created_at"] for state in listed]
     assert created == sorted(created, reverse=True)
-    assert sweep in [entry["links"]["self"] for entry in listed]
+    assert sweep in [state["links"]["self"] for state in listed]
     assert client.get("/v1/sweeps?before=x").status_code == 404
     assert client.get("/v1/sweeps?limit=0").status_code == 422
 

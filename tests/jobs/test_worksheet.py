@@ -25,8 +25,8 @@ def test_rows_come_back_and_nothing_is_a_formula() -> None:
     content = b"".join(worksheet(SCHEMA, table(ROWS).to_batches()))
     data = read(content)
     # what ends a line comes back as the library has it
-    expected = [tuple("\n=1" if value == "\r=1" else value for value in row.values()) for row in ROWS]
-    got = [tuple("\n=1" if value in ("\r=1", "_x000D_=1") else value for value in row) for row in data["rows"][1:]]
+    expected = [tuple("\n=1" if cell == "\r=1" else cell for cell in row.values()) for row in ROWS]
+    got = [tuple("\n=1" if cell in ("\r=1", "_x000D_=1") else cell for cell in row) for row in data["rows"][1:]]
     assert data["rows"][0] == tuple(SCHEMA.names)
     assert got == expected
     assert data["columns"][2] == ("force_peak_N", "N", "")

@@ -1,7 +1,7 @@
 """A network that fails: between a client and a service it delays, drops and duplicates requests and answers.
 
-What it did to a request it notes by the request's ``X-Request-ID``, so that a history can be judged: a request that
-was dropped may have had its effect or not, one that was duplicated had it twice.
+What it did to a request it notes by the request's ``X-Request-ID``, so that a history can be judged. A request that was
+dropped may have had its effect or not, one that was duplicated had it twice.
 """
 
 import random

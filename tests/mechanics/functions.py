@@ -171,9 +171,9 @@ def _keys(design: Design) -> Any:
     ring = oldham.Oldham(
         design.number, 2.0 * design.number, 3.0 * design.number, 4.0 * design.number, 5.0 + design.number
     )
-    value = oldham.keys(ring, design.over_turn[..., 0, :], design.angle)
+    forces = oldham.keys(ring, design.over_turn[..., 0, :], design.angle)
     lost = oldham.pin_losses(np.stack([design.angle, -design.angle], axis=-1), 0.1, design.angle, 3.0)
-    return value, value.loss(design.angle), lost
+    return forces, forces.loss(design.angle), lost
 
 
 def _quality(design: Design) -> Any:
@@ -225,7 +225,7 @@ def _traced(design: Design) -> Any:
     table = np.where(design.number > 0.55, 1, 0)
     trace = Trace(1, 1, 1, angle, pressure, table, 2.0 * np.pi * table)
     rows = design.layout.reciprocating
-    facts = (value[..., 1] for value in (design.of_rows, rows.crank_radius, rows.rod_ratio, rows.rod_margin))
+    facts = (numbers[..., 1] for numbers in (design.of_rows, rows.crank_radius, rows.rod_ratio, rows.rod_margin))
     return (
         trace.at(design.angle),
         trace.at(design.angle, design.angle + 0.01),
@@ -258,7 +258,7 @@ def _bearing_curves(design: Design) -> Any:
     curves = shaft_curves.shaft_curves(curves_of(design).whole, design.layout, influence)
     leading = (*design.number.shape, _B)
     means = [curves.curves.mean.reshape(*design.number.shape, -1) for curves in (curves, curves.first(2))]
-    offsets = [curves.offsets(value).reshape(leading) for value in (None, design.unbalance)]
+    offsets = [curves.offsets(unbalance).reshape(leading) for unbalance in (None, design.unbalance)]
     bending = shaft_curves.bending_influence(design.layout, design.bearings, influence, design.planes)
     return [*means, *offsets, bending]
 

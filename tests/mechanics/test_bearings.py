@@ -183,7 +183,7 @@ def macaulay(shaft: Shaft) -> Any:
         return np.vstack([np.maximum(x[:, None] - place, 0) ** 3 / 6, 0 * place + 1, place])
 
     with mpmath.workdps(60):
-        x, z = (np.array([mpmath.mpf(float(value)) for value in places]) for places in shaft[:2])
+        x, z = (np.array([mpmath.mpf(float(plane)) for plane in places]) for places in shaft[:2])
         constants = np.vstack([np.column_stack([0 * x + 1, x]), np.zeros((2, 2))])
         system = mpmath.matrix(np.hstack([rows(x), constants]).tolist())
         solution = mpmath.inverse(system) * mpmath.matrix(rows(z).tolist())
@@ -240,9 +240,9 @@ def test_moment_vanishes_beyond_the_ends_and_at_hinges(model: Model, shaft: Shaf
 def test_moment_is_the_couple_of_the_forces_on_either_side(model: Model, shaft: Shaft, station: float) -> None:
     arm = np.concatenate([shaft.bearing, shaft.position]) - station
     force = np.concatenate([-model(*shaft), shaft.load])
-    value, scale = moment_at(model, shaft, [station])[0], 20.0 * load_scale(shaft, model(*shaft))
-    assert_close(np.minimum(arm, 0.0) @ force, value, scale)
-    assert_close(-np.maximum(arm, 0.0) @ force, value, scale)
+    bending, scale = moment_at(model, shaft, [station])[0], 20.0 * load_scale(shaft, model(*shaft))
+    assert_close(np.minimum(arm, 0.0) @ force, bending, scale)
+    assert_close(-np.maximum(arm, 0.0) @ force, bending, scale)
 
 
 @MODELS

@@ -270,7 +270,7 @@ def test_a_column_of_one_cylinder_is_each_of_its_values_alone(field: str) -> Non
     plain = machine(FULL, FULL, FULL)
     together = chambers(with_fields(plain, {path: column}))
     assert together.area.shape == (3, 3, 2)
-    for n, value in enumerate(column):
-        alone = chambers(with_fields(plain, {path: float(value)}))
+    for n, pressure in enumerate(column):
+        alone = chambers(with_fields(plain, {path: float(pressure)}))
         for name, array in vars(alone).items():
             assert np.array_equal(getattr(together, name)[n], array), name

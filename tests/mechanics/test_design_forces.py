@@ -70,8 +70,8 @@ def test_many_designs_have_the_curves_of_each(seed: int, style: str, what: str, 
             assert alone.whole.forces is None
             own = slice(2 * n, 2 * n + 2)
             for name in ("cubic", "rest", "size"):
-                value = getattr(curves.pieces, name)[own]
-                np.testing.assert_array_equal(value, getattr(alone.pieces, name), err_msg=f"{reading} {name}")
+                part = getattr(curves.pieces, name)[own]
+                np.testing.assert_array_equal(part, getattr(alone.pieces, name), err_msg=f"{reading} {name}")
 
 
 def test_designs_with_tables_of_their_own_differ() -> None:

@@ -127,7 +127,7 @@ def test_breaks_are_the_entries_of_all_turns() -> None:
 @pytest.mark.parametrize("step", [90.0, 7.5])
 def test_no_curve_leaves_its_pieces(step: float) -> None:
     # analytic: Taylor's theorem, at angles spread over every piece of both turns
-    turn = turn_of(engine(FOUR, [cylinder(trace(step), dead_centre_deg=value) for value in FOUR]))
+    turn = turn_of(engine(FOUR, [cylinder(trace(step), dead_centre_deg=angle) for angle in FOUR]))
     assert turn.turns == 2
     for reading in ("piston", "rod", "rod_at_rest", "tangential", "radial", "on_shaft"):
         curves = turn.curves(reading, np.eye(4)[None])  # type: ignore[arg-type]

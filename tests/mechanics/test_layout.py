@@ -31,6 +31,6 @@ SIZES = st.floats(1e-6, 1e6)
 @given(SIZES, SIZES)
 def test_a_quotient_and_its_rounding_have_the_digits_of_two_doubles(numerator: float, denominator: float) -> None:
     """Independent: fractions."""
-    value, rest = quotient(np.asarray(numerator), np.asarray(denominator))
+    ratio, rest = quotient(np.asarray(numerator), np.asarray(denominator))
     exact = Fraction(numerator) / Fraction(denominator)
-    assert abs(Fraction(float(value)) + Fraction(float(rest)) - exact) <= exact * Fraction(2) ** -104
+    assert abs(Fraction(float(ratio)) + Fraction(float(rest)) - exact) <= exact * Fraction(2) ** -104

@@ -85,8 +85,8 @@ def _same(first: Any, second: Any) -> None:
             if not name.endswith("_deg"):  # of equal peaks either angle is right
                 _same(first[name], second[name])
     elif isinstance(first, list | tuple):
-        for value, theirs in zip(first, second, strict=True):
-            _same(value, theirs)
+        for figure, theirs in zip(first, second, strict=True):
+            _same(figure, theirs)
     elif isinstance(first, float):
         assert first == pytest.approx(second, rel=1e-9, abs=1e-5)
     else:

@@ -38,8 +38,8 @@ def test_panels_cover_the_turn_once(breaks: list[float]) -> None:
     assert np.all(np.diff(angle) >= 0.0)
     assert np.all((angle >= 0.0) & (angle <= TURN * (1 + 1e-15)))
     edges = np.append(turn.start, TURN)
-    for value in np.mod(np.array(breaks)[np.isfinite(breaks)], TURN):
-        assert np.min(np.abs(edges - value)) < 1e-12
+    for edge in np.mod(np.array(breaks)[np.isfinite(breaks)], TURN):
+        assert np.min(np.abs(edges - edge)) < 1e-12
     # analytic
     assert mean(turn, np.ones_like(angle)) == pytest.approx(1.0, rel=1e-14)
     assert fluctuation(turn, np.full_like(angle, 7e5)) == pytest.approx(0.0, abs=1e-8)

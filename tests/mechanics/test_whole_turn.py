@@ -56,8 +56,8 @@ def test_series_have_the_values_of_the_samples(style: str, exact: bool) -> None:
     expected, moving = _forces(plan, data, angle, exact, friction)
     series = RowSeries(turn.rows, angle[None], None, angle[None], 0)
     for reading in READINGS:
-        value, actual = forces(series, reading)[0, ..., 0], getattr(expected, reading)
-        assert value == pytest.approx(actual, rel=1e-9, abs=1e-11 * np.max(np.abs(actual))), reading
+        own, actual = forces(series, reading)[0, ..., 0], getattr(expected, reading)
+        assert own == pytest.approx(actual, rel=1e-9, abs=1e-11 * np.max(np.abs(actual))), reading
     _, loads = shaft_loads(expected.piston, moving, plan, angle)
     count = plan.reciprocating.mass.size
     actual_forces = forces(series, "on_shaft")[0, ..., 0] * plan.reciprocating.crank_direction[:, None]
@@ -130,10 +130,10 @@ def test_root_mean_squares_are_off_by_no_more_than_is_told(
     within = ((2.0 * np.arange(8) - 7.0)[:, None] + node).ravel() / 8.0
     angle = curves.pieces.centre[..., None] + curves.pieces.half[..., None] * within
     curve, piece, _ = np.indices(angle.shape)
-    value = curves.values(curve.ravel(), piece.ravel(), angle.ravel()).reshape(angle.shape)
+    there = curves.values(curve.ravel(), piece.ravel(), angle.ravel()).reshape(angle.shape)
     share = curves.pieces.half[..., None] * np.tile(weight / 8.0, 8) / TURN
     for constant in (0.0, 1e3 - 2e3j):
-        exact = np.sqrt(np.sum(np.abs(value + constant) ** 2 * share, axis=(1, 2)))
+        exact = np.sqrt(np.sum(np.abs(there + constant) ** 2 * share, axis=(1, 2)))
         root = np.sqrt(curves.variance + np.abs(curves.mean + constant) ** 2)
         assert np.all(np.abs(root - exact) <= curves.rms_error + 1e-14 * curves.pieces.size)
     if most > 1:
@@ -192,12 +192,12 @@ def test_designs_together_are_as_designs_alone(reading: Reading) -> None:
     cut = [np.repeat(values, 3, axis=0) for values in (turn.centre, turn.half)]
     shared = replace(turn.rows, designs=3, inertia=inertia)
     apart = replace(shared, ahead=np.repeat(turn.rows.ahead, 3, axis=0))
-    alone = [WholeTurn(replace(turn.rows, inertia=value[None]), turn.centre, turn.half) for value in inertia]
+    alone = [WholeTurn(replace(turn.rows, inertia=masses[None]), turn.centre, turn.half) for masses in inertia]
     expected = [_peaks(single_turn, reading) for single_turn in alone]
     for rows in (shared, apart):
         bracket = _peaks(WholeTurn(rows, *cut), reading)
-        for part, entry in zip(bracket, zip(*expected, strict=True), strict=True):
-            assert np.array_equal(part, np.concatenate(entry))
+        for part, expected_part in zip(bracket, zip(*expected, strict=True), strict=True):
+            assert np.array_equal(part, np.concatenate(expected_part))
 
 
 def test_what_all_designs_have_alike_stands_once() -> None:
@@ -239,10 +239,10 @@ def test_mean_squares_of_designs_are_those_of_each_alone(reading: Reading) -> No
     nodes = curves._quadrature[2]
     assert len(set(nodes.tolist())) > 1
     for name in ("mean", "variance", "rms_error"):
-        value = getattr(curves, name).reshape(3, 2)
+        part = getattr(curves, name).reshape(3, 2)
         for number in range(3):
             alone = curves.of_designs(slice(number, number + 1))
-            np.testing.assert_array_equal(value[number], getattr(alone, name), err_msg=name)
+            np.testing.assert_array_equal(part[number], getattr(alone, name), err_msg=name)
             assert alone._quadrature[2] == nodes[number]
 
 

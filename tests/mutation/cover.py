@@ -1,8 +1,9 @@
 """Which tests run which lines of some files: a plugin of pytest, ``-p tests.mutation.cover``.
 
 The environment says what is looked at: COVERED_FILES, a pattern from the root of the tree, and COVERED_TO, the file
-that is written. It holds, for every file of tests, whether all passed, each test with its seconds and the lines that it
-ran, and the lines that ran for all of the file: while it was imported, and by fixtures that serve several tests.
+that is written. It holds, for every file of tests, whether all passed, and each test with its seconds and the lines
+that it ran. It holds the lines that ran for all of the file: while it was imported, and by fixtures that serve several
+tests.
 """
 
 import json

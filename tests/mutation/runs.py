@@ -75,9 +75,9 @@ class Loaded:
         """Exit code of pytest with another text of a file; None where that has to be imported."""
         question = json.dumps([str(file), original, text, tests]).encode() + b"\n"
         os.write(self._ask, len(question).to_bytes(8, "big"))
-        value = memoryview(question)
-        while value:
-            value = value[os.write(self._ask, value) :]
+        rest = memoryview(question)
+        while rest:
+            rest = rest[os.write(self._ask, rest) :]
         word = self._lines.readline().decode().strip()
         return None if word == _NOT_LOADED else int(word)
 
@@ -114,11 +114,11 @@ def _serve(copy: Path, tests: list[str], pattern: str, asks: int, answer: int) -
         os._exit(0)
 
 
-def _forked(copy: Path, value: Functions, path: Path, original: str, text: str, tests: list[str]) -> int | None:
+def _forked(copy: Path, functions: Functions, path: Path, original: str, text: str, tests: list[str]) -> int | None:
     child = os.fork()
     if child == 0:
         _limited(_MUTANT_S)
-        os._exit(_pytest(["-x", *tests]) if patched(value, path, original, text) else 98)
+        os._exit(_pytest(["-x", *tests]) if patched(functions, path, original, text) else 98)
     code = _ended(child)
     return None if code == 98 else code
 

@@ -1,11 +1,10 @@
 """Legal traffic that costs as much as it can, beside a client who only wants his answers.
 
 ``python -m tests.network.bystander`` prints, for each kind of traffic, what became of the bystander's requests and how
-much memory the service took above rest; it fails if one of his was refused or the memory is over its limit. All clients
+much memory the service took above rest. It fails if one of his was refused or the memory is over its limit. All clients
 are on this machine: the bystander has an address of his own (127.0.0.2), those who press the service share another, or
-four or six of them.
-Those are a process of their own, of low priority: what they compute is not what the service costs, and other machines
-would compute it.
+four or six of them. Those are a process of their own, of low priority: what they compute is not what the service costs,
+and other machines would compute it.
 """
 
 import argparse
@@ -319,7 +318,7 @@ def main() -> int:
     }
     if arguments.only is not None:
         presses = {
-            name: entry for name, entry in presses.items() if name == "nobody" or name.startswith(arguments.only)
+            name: press for name, press in presses.items() if name == "nobody" or name.startswith(arguments.only)
         }
     with service(fresh=True, log_level="warning", rate_limit="") as target:
         target.sweep = asyncio.run(start_sweep(target))  # type: ignore[attr-defined]

@@ -167,8 +167,8 @@ async def send(target: Service, random: Random, count: int) -> list[tuple[Burst,
     pending = requests(random)
     while len(values) < count:
         async with target.connection() as (reader, writer):
-            verdict = True
-            while verdict and len(values) < count:
+            persistent = True
+            while persistent and len(values) < count:
                 message, begun = next(pending), time.perf_counter()
                 with suppress(OSError):
                     writer.write(message.raw)
@@ -180,7 +180,7 @@ async def send(target: Service, random: Random, count: int) -> list[tuple[Burst,
                         while reply.status == 100:
                             reply = await read(reader)
                     values.append((message, reply, time.perf_counter() - begun))
-                    verdict = reply.status > 0 and reply.headers.get("connection") != "close" and not message.ends
-                    if not verdict:
+                    persistent = reply.status > 0 and reply.headers.get("connection") != "close" and not message.ends
+                    if not persistent:
                         break
     return values

@@ -204,9 +204,9 @@ def _hosts() -> Iterator[Raw]:
         "x" * 5000,
         "\xff",
     )
-    entry = (("GET", "/v1/sweeps"), ("DELETE", "/v1/sweeps/x"), ("POST", "/v1/optimize"), ("GET", "/"))
+    requests = (("GET", "/v1/sweeps"), ("DELETE", "/v1/sweeps/x"), ("POST", "/v1/optimize"), ("GET", "/"))
     for name in names:
-        for method, path in entry:
+        for method, path in requests:
             yield request(method, path, headers={"Host": name})
 
 

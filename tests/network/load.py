@@ -121,9 +121,9 @@ def main() -> int:
         errors += _show(
             "with a sweep", asyncio.run(load(target, arguments.clients, arguments.seconds)), arguments.seconds
         )
-        value = json.loads(asyncio.run(target.ask("GET", sweep)).body)["done"]
+        count = json.loads(asyncio.run(target.ask("GET", sweep)).body)["done"]
         asyncio.run(target.ask("DELETE", sweep))
-        print(f"    {value} designs of the sweep meanwhile")
+        print(f"    {count} designs of the sweep meanwhile")
         times = [asyncio.run(killed(target)) for _ in range(10)]
         print(f"workers killed 10 times: answered again within {1000 * max(times):.0f} ms")
         own, worker = target.memory_mb()

@@ -17,7 +17,7 @@ from pathlib import Path
 from tests.network.serving import service
 
 PHASES = ("examples", "coverage", "fuzzing", "stateful")
-#: rules between the numbers of a machine are more than a schema can say, so what fits a schema may be refused (422); a
+#: rules between the numbers of a machine are more than a schema can say, so what fits a schema may be refused (422). A
 #: body that breaks a bound may be too large to be read (413)
 _CONFIG = """\
 [checks.positive_data_acceptance]

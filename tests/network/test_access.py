@@ -103,13 +103,13 @@ def test_without_a_right_key_everything_looks_the_same(
 
 
 def test_a_key_is_right_until_it_expires(monkeypatch: pytest.MonkeyPatch, keyring: tuple[Path, dict[str, str]]) -> None:
-    value, key = keys.Keys(keyring[0]), keyring[1]["expired"]
+    key_file, key = keys.Keys(keyring[0]), keyring[1]["expired"]
     monkeypatch.setattr("service.guard.keys.time.time", lambda: 0.5)
-    caller = value.caller(key)
+    caller = key_file.caller(key)
     assert caller is not None
     assert caller.owner == "alice"
     monkeypatch.setattr("service.guard.keys.time.time", lambda: 1.5)
-    assert value.caller(key) is None
+    assert key_file.caller(key) is None
 
 
 @pytest.mark.parametrize("name", ["bob", "reader"])
@@ -268,11 +268,11 @@ def test_no_key_is_in_the_file_and_nobody_else_can_read_it(keyring: tuple[Path, 
 
 
 def test_a_wrong_key_takes_as_long_as_a_right_one(keyring: tuple[Path, dict[str, str]]) -> None:
-    value = keys.Keys(keyring[0])
+    key_file = keys.Keys(keyring[0])
 
     def seconds(key: str) -> float:
         begun = time.perf_counter()
-        value.caller(key)
+        key_file.caller(key)
         return time.perf_counter() - begun
 
     right = keyring[1]["alice"]

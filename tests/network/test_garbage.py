@@ -50,7 +50,7 @@ def test_what_was_answered_is_gone_with_its_last_reference(tmp_path: Path) -> No
                         await asyncio.sleep(0.01)
                 gc.collect()
                 gc.set_debug(0)
-                values, gc.garbage[:] = [value for value in gc.garbage if isinstance(value, OURS)], []
+                values, gc.garbage[:] = [leftover for leftover in gc.garbage if isinstance(leftover, OURS)], []
         return values
 
     try:

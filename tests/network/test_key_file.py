@@ -18,15 +18,15 @@ def test_keys_come_and_go_while_the_service_runs(tmp_path: Path, monkeypatch: py
     file = tmp_path / "keys"
     (old, first), (new, second) = keys.make("a", ("read",)), keys.make("a", ("read",))
     keys.write(file, [first])
-    value = keys.Keys(file)
+    key_file = keys.Keys(file)
     keys.write(file, [first, second])
-    assert value.caller(old) == value.caller(old)
-    assert value.caller(new) is not None
+    assert key_file.caller(old) == key_file.caller(old)
+    assert key_file.caller(new) is not None
     keys.write(file, [second])
-    assert value.caller(old) is None
+    assert key_file.caller(old) is None
     file.write_text("nonsense")
     # a file that is wrong for a moment takes nobody's key away
-    assert value.caller(new) is not None
+    assert key_file.caller(new) is not None
 
 
 def test_the_file_is_looked_at_no_more_often_than_it_may(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -34,12 +34,12 @@ def test_the_file_is_looked_at_no_more_often_than_it_may(tmp_path: Path, monkeyp
     monkeypatch.setattr(keys, "time", SimpleNamespace(monotonic=lambda: now, time=time.time))
     (_, first), (new, second) = keys.make("a", ("read",)), keys.make("a", ("read",))
     keys.write(tmp_path / "keys", [first])
-    value = keys.Keys(tmp_path / "keys")
+    key_file = keys.Keys(tmp_path / "keys")
     keys.write(tmp_path / "keys", [first, second])
     now += 0.9 * keys._LOOK_S
-    assert value.caller(new) is None
+    assert key_file.caller(new) is None
     now += 0.2 * keys._LOOK_S
-    assert value.caller(new) is not None
+    assert key_file.caller(new) is not None
 
 
 def test_a_file_that_is_gone_takes_no_key_away_and_is_told_of_once(
@@ -49,12 +49,12 @@ def test_a_file_that_is_gone_takes_no_key_away_and_is_told_of_once(
     file = tmp_path / "keys"
     (old, first), (new, second) = keys.make("a", ("read",)), keys.make("b", ("read",))
     keys.write(file, [first])
-    value = keys.Keys(file)
+    key_file = keys.Keys(file)
     file.unlink()
-    assert [value.caller(key) is None for key in (old, old, new, old)] == [False, False, True, False]
+    assert [key_file.caller(key) is None for key in (old, old, new, old)] == [False, False, True, False]
     assert caplog.text.count("cannot read the keys") == 1
     keys.write(file, [second])
-    assert [value.caller(key) is None for key in (old, new)] == [True, False]
+    assert [key_file.caller(key) is None for key in (old, new)] == [True, False]
 
 
 @pytest.mark.parametrize(
@@ -107,12 +107,12 @@ def test_use_and_change_of_keys_are_noted(
     file = tmp_path / "keys.jsonl"
     keys.write(file, [first, expired, unused])
     caplog.set_level("INFO", "service.audit")
-    value = keys.Keys(file)
+    key_file = keys.Keys(file)
     for passage in (text, text, old, old, "cw_wrong"):
-        value.caller(passage)
+        key_file.caller(passage)
     keys.write(file, [second, expired.model_copy(update={"expires": 2.0}), unused])
-    value.caller(text)
-    value.caller(words)
+    key_file.caller(text)
+    key_file.caller(words)
     values = [(record.getMessage().split(" ", 2)[2], vars(record)["owner"]) for record in caplog.records]
     assert values[:2] == [("used for the first time since the start", "portal"), ("refused, as it has expired", "old")]
     assert sorted(values[2:-1]) == [("added", "cad"), ("changed", "old"), ("revoked", "portal")]

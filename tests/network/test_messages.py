@@ -26,11 +26,11 @@ async def next_message(ours: socket.socket) -> tuple[Any, BinaryIO | None]:
     return await Listener(ours).receive()
 
 
-def whole(value: object) -> bytes:
+def whole(message: object) -> bytes:
     """The bytes of an object as they go over a socket."""
     ours, theirs = socket.socketpair()
     with ours, theirs:
-        say(theirs, value)
+        say(theirs, message)
         return ours.recv(1_000_000)
 
 
@@ -38,9 +38,9 @@ def test_objects_come_as_they_were_said(ends: tuple[socket.socket, socket.socket
     ours, theirs = ends
     # each in an event loop of its own
     listener = Listener(ours)
-    for value in (None, "short", {"a": bytes(50_000)}):
-        say(theirs, value)
-        assert anyio.run(listener.receive) == (value, None)
+    for message in (None, "short", {"a": bytes(50_000)}):
+        say(theirs, message)
+        assert anyio.run(listener.receive) == (message, None)
 
 
 def test_an_object_that_comes_in_pieces_is_waited_for(ends: tuple[socket.socket, socket.socket]) -> None:
@@ -79,8 +79,8 @@ def test_a_file_comes_with_its_object(ends: tuple[socket.socket, socket.socket])
         file.write(b"large")
         file.seek(0)
         say(theirs, "beside it", file)
-    value, io = anyio.run(next_message, ours)
-    assert value == "beside it"
+    message, io = anyio.run(next_message, ours)
+    assert message == "beside it"
     assert io is not None
     with io:
         assert io.read() == b"large"

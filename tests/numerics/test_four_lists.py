@@ -13,10 +13,10 @@ def test_of_few_sums_the_nearest_is_found() -> None:
     lists = list(np.random.default_rng(1).standard_normal((4, 9, 3)))
     values = np.array([0.3, -0.2, 0.1])
     which = nearest_sums(lists, 0.5 * values, values)
-    places = product(*(range(len(value)) for value in lists))
-    every = [sum(value[k] for value, k in zip(lists, place, strict=True)) for place in places]
-    best = min(float(np.sum((value - values) ** 2)) for value in np.array(every))
-    sums = sum(value[k] for value, k in zip(lists, which, strict=True))
+    places = product(*(range(len(numbers)) for numbers in lists))
+    every = [sum(numbers[k] for numbers, k in zip(lists, place, strict=True)) for place in places]
+    best = min(float(np.sum((total - values) ** 2)) for total in np.array(every))
+    sums = sum(numbers[k] for numbers, k in zip(lists, which, strict=True))
     assert float(np.min(np.sum((sums - values) ** 2, axis=1))) == best
     assert which.shape == (4, four_lists._NEAREST)
 

@@ -49,8 +49,8 @@ def test_records_are_compared_and_shown_as_dataclasses_are() -> None:
     kind = make_dataclass("Shown", ["first", "second"], frozen=True, namespace={"__doc__": "Two."})
     actual_kind = record(frozen=True)(type("Shown", (), {"__annotations__": {"first": int, "second": int}}))
     for first, second in ((1, 2), (0, "text"), ((), None)):
-        same, value = actual_kind(first, second), actual_kind(first, 7)
-        assert (same == actual_kind(first, second), same == value, same == kind(first, second)) == (True, False, False)
+        same, other = actual_kind(first, second), actual_kind(first, 7)
+        assert (same == actual_kind(first, second), same == other, same == kind(first, second)) == (True, False, False)
         assert hash(same) == hash(plain(first, second))
         assert repr(same) == repr(kind(first, second))
     assert hash(Pair(1, 2, ())) == hash(Pair(1, 2, ()))  # type: ignore[arg-type]

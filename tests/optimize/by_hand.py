@@ -67,13 +67,13 @@ def machine(body: JSON, reference_plane: float) -> Machine:
                 slides(mass, radius, angle, row["axis_deg"], own)
     else:
         guide, radius = body["anti_rotation"], mp.mpf(body["orbit_radius_m"])
-        place, value = mp.mpf(body["orbiting_position_m"]), mp.mpf(guide["position_m"])
-        planes = [place, value]
+        place, guide_plane = mp.mpf(body["orbiting_position_m"]), mp.mpf(guide["position_m"])
+        planes = [place, guide_plane]
         co.append((body["orbiting_mass_kg"] * radius, place))
         if guide["type"] == "oldham":
-            slides(guide["mass_kg"], radius, 0, guide["axis_deg"], value)
+            slides(guide["mass_kg"], radius, 0, guide["axis_deg"], guide_plane)
         else:
-            co.append((guide["count"] * mp.mpf(guide["eccentric_mass_kg"]) * radius, value))
+            co.append((guide["count"] * mp.mpf(guide["eccentric_mass_kg"]) * radius, guide_plane))
     reference = mp.mpf(reference_plane)
     force = Phasors(mp.fsum(f for f, _ in co), mp.fsum(b for b, _ in counter))
     moment = Phasors(mp.fsum((z - reference) * f for f, z in co), mp.fsum((z - reference) * b for b, z in counter))
@@ -127,7 +127,7 @@ def bound(
     slope = [mp.mpc(0)] * len(design.webs)
     rows = {row["name"]: mp.mpf(row["value"]) for row in multipliers["rows"]}
     constant = mp.mpf(0)
-    wx, wy = (mp.mpf(value) for value in across)
+    wx, wy = (mp.mpf(coordinate) for coordinate in across)
     if multipliers["terms"]:
         for name, factor in weight.items():
             if wx == wy and factor > 0:

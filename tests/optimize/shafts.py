@@ -82,7 +82,7 @@ def rolled(body: dict[str, Any], answer: dict[str, Any], theta_deg: float) -> fl
     """Moment about the crankshaft on the frame [N m], counter-clockwise, from the definitions alone; without gas.
 
     The pistons take the power that their kinetic energy rises by from the crankshaft, and the frame holds against the
-    torque of that; a shaft beside the crankshaft pushes with the lever of its place.
+    torque of that. A shaft beside the crankshaft pushes with the lever of its place.
     """
     s = 1.0 if body.get("rotation", "ccw") == "ccw" else -1.0
     omega, theta = body["speed_rpm"] * math.pi / 30.0, math.radians(theta_deg)

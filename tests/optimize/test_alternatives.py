@@ -43,9 +43,9 @@ def test_the_cheapest_of_all_sets(combine: str) -> None:
     for some, after in every_set(body, [[0.0, 180.0], [0.0, 180.0], [90.0, 270.0]]):
         peaks = after.force.peak_N, 2.0 * after.moment.peak_Nm
         masses = [mass for mass, _ in some if mass > 0]
-        value = sum(peaks) if combine == "sum" else max(peaks)
-        sets.append((value, {"mass": sum(masses), "pieces": len(masses), "sizes": len(set(masses))}))
-    best = min(value for value, _ in sets)
+        objective = sum(peaks) if combine == "sum" else max(peaks)
+        sets.append((objective, {"mass": sum(masses), "pieces": len(masses), "sizes": len(set(masses))}))
+    best = min(objective for objective, _ in sets)
     assert answer.certificate.objective == pytest.approx(best, rel=1e-9)
     own = {
         "mass": answer.total_mass_kg,
@@ -55,7 +55,9 @@ def test_the_cheapest_of_all_sets(combine: str) -> None:
     for minimised, minimum in own.items():
         expected = []
         for allowance in _ALLOWANCES:
-            within = [cost[minimised] for value, cost in sets if value <= best * (1.0 + allowance) * (1.0 + 1e-9)]
+            within = [
+                cost[minimised] for objective, cost in sets if objective <= best * (1.0 + allowance) * (1.0 + 1e-9)
+            ]
             if min(within) < minimum:
                 minimum = min(within)
                 expected.append((allowance, minimum))
@@ -159,7 +161,7 @@ def test_all_of_it_shares_one_time_limit(
     monkeypatch.setattr(module, "alternatives", listed)
     optimize(OptimizeRequest.model_validate(body))
     assert limits == [first_s]
-    assert all(4.0 <= value < 10.0 for value in left)
+    assert all(4.0 <= mass < 10.0 for mass in left)
     assert len(left) == len(alternatives)
 
 

@@ -47,8 +47,8 @@ def along(machine: dict[str, Any], u: np.ndarray) -> dict[str, np.ndarray]:
 
 
 def along_axes(force: np.ndarray, moment: np.ndarray) -> dict[str, np.ndarray]:
-    entry = (force.real, force.imag, moment.real, moment.imag)
-    return {name: np.max(np.abs(values), axis=-1) for name, values in zip(CEILINGS, entry, strict=True)}
+    components = (force.real, force.imag, moment.real, moment.imag)
+    return {name: np.max(np.abs(values), axis=-1) for name, values in zip(CEILINGS, components, strict=True)}
 
 
 @cache
@@ -129,8 +129,8 @@ def test_least_masses() -> None:
     turned = np.exp(1j * np.deg2rad(np.arange(0.0, 360.0, 8.0)))
     values = 0.12 * np.append(0.0, np.multiply.outer(np.linspace(14.0, 16.0, 3), turned).ravel())
     loads, best = Loads(machine), np.inf
-    for value in values:
-        u = np.stack([np.full(values.size, value), values], axis=-1)
+    for objective in values:
+        u = np.stack([np.full(values.size, objective), values], axis=-1)
         mask = along(machine, u)["force_ceiling_y_N"] <= ceiling
         if np.any(mask):
             best = min(best, float(np.min(loads.peak(u[mask]))))

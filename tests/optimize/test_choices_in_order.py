@@ -149,7 +149,7 @@ def test_least_masses() -> None:
 
     def best(values: list[np.ndarray]) -> tuple[float, float, np.ndarray]:
         """The least of both goals, of the last under the limit, and where; sets are of all options of both webs."""
-        sets = np.stack([entry.ravel() for entry in np.meshgrid(*values, indexing="ij")], axis=-1)
+        sets = np.stack([unbalances.ravel() for unbalances in np.meshgrid(*values, indexing="ij")], axis=-1)
         force, moment = loads.frame(sets, plane)
         first = 0.5 * force + 2.0 * moment
         within = sets[first <= level.limit]
@@ -164,7 +164,7 @@ def test_least_masses() -> None:
 
     first, last, at = best([about(1.8, 1.0, 91)] * 2)
     for share in 0.1 * 0.7 ** np.arange(16):
-        lower, closer, there = best([about(value, share, 5) for value in at])
+        lower, closer, there = best([about(centre, share, 5) for centre in at])
         first = min(first, lower)
         if closer < last:
             last, at = closer, there

@@ -62,7 +62,7 @@ def test_no_set_by_hand_is_better(scenarios: list[dict[str, Any]]) -> None:
     assert answer.certificate.continuous_lower_bound is not None
     assert answer.certificate.continuous_lower_bound <= best
     assert answer.worst_case.objective == answer.certificate.objective
-    # what the best set of the machine as it is comes to in the worst case
+    # what the best set of the unchanged machine comes to in the worst case
     nominal = objective(body, u)
     assert answer.price_of_robustness.nominal_optimum == pytest.approx(float(np.min(nominal)), rel=1e-9)
     assert answer.price_of_robustness.nominal_optimum_worst_case is not None

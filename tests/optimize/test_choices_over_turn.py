@@ -72,12 +72,12 @@ def test_all_orders_and_bending() -> None:
     goal = {"bearing_weight": 1, "bending_weight": 2.0, "moment_weight": 1.0, "orders": "all"}
     optimum, proof = certified(request_body(machine, **goal))
     values = []
-    for entry in every_set(machine, [11.0])[0]:
+    for choice in every_set(machine, [11.0])[0]:
         bare = {name: value for name, value in machine.items() if name != "catalogue"}
         places = [{k: web[k] for k in ("name", "position_m", "counterweight_radius_m")} for web in machine["webs"]]
         bare["webs"] = [
             place | {"fixed": {"mass_kg": mass, "angle_deg": angle}}
-            for place, (mass, angle) in zip(places, entry, strict=True)
+            for place, (mass, angle) in zip(places, choice, strict=True)
             if mass > 0
         ]
         bare["reference_plane_m"] = optimum.reference_plane_m
@@ -91,7 +91,7 @@ def test_ceilings_and_counts() -> None:
     """Independent: of the sets of at most two weights that keep a ceiling on the bearings the least force."""
     machine = twin(max_counterweights=2)
     loads, (sets, u) = Loads(machine), every_set(machine)
-    few = np.array([sum(mass > 0 for mass, _ in entry) <= 2 for entry in sets])
+    few = np.array([sum(mass > 0 for mass, _ in choice) <= 2 for choice in sets])
     peak = loads.peak(u[few])
     ceiling = float(np.sort(peak)[12]) * (1 + DEGREE)
     goal = {"moment_weight": 0, "bearing_ceiling_N": ceiling}

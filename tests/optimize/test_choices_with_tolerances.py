@@ -92,7 +92,7 @@ def test_no_set_has_a_better_worst_case(tolerances: dict[str, float]) -> None:
     assert answer.worst_case.objective == answer.certificate.objective
     price = answer.price_of_robustness
     assert price is not None
-    # what the best set of the machine as it is comes to, and is worth in the worst case
+    # what the best set of the unchanged machine comes to, and is worth in the worst case
     assert price.nominal_optimum == pytest.approx(float(np.min(worst(every, {}))), rel=1e-9)
     assert price.nominal_optimum_worst_case is not None
     assert price.nominal_optimum_worst_case >= best * (1.0 - 1e-9)
@@ -282,8 +282,8 @@ def test_bearings_of_masses_that_are_at_least_so_heavy(share: float) -> None:
     assert answer.certificate is not None
     assert answer.certificate.lower_bound is not None
     sizes, angles = np.linspace(8.0, 20.0, 25), np.radians(np.arange(0.0, 360.0, 4.0))
-    value = np.concatenate([[0j], (sizes[:, None] * np.exp(1j * angles)).ravel()]) * RADIUS
-    first, last = (part.ravel() for part in np.meshgrid(value, value, indexing="ij"))
+    unbalances = np.concatenate([[0j], (sizes[:, None] * np.exp(1j * angles)).ravel()]) * RADIUS
+    first, last = (part.ravel() for part in np.meshgrid(unbalances, unbalances, indexing="ij"))
     loads = []
     for side in (-1.0, 1.0):
 

@@ -41,15 +41,15 @@ def sets() -> Sets:
     values = []
     for some, after in every_set_analysed(small(), [[0.0, 180.0], [0.0, 180.0], [90.0, 270.0]]):
         masses = [mass for mass, _ in some if mass > 0]
-        value = after.force.peak_N + 2.0 * after.moment.peak_Nm
+        objective = after.force.peak_N + 2.0 * after.moment.peak_Nm
         cost = {"mass": sum(masses), "pieces": len(masses), "sizes": len(set(masses)), "moment": after.moment.peak_Nm}
-        values.append((value, cost))
+        values.append((objective, cost))
     return values
 
 
 def by_hand(sets: Sets, order: list[dict[str, Any]]) -> list[float]:
     """Independent: what goals come to one after the other."""
-    rest, levels = max(value for value, cost in sets if cost["pieces"] == 0), []
+    rest, levels = max(objective for objective, cost in sets if cost["pieces"] == 0), []
     for priority in order:
         goal, allowance = priority["goal"], priority["allowance"]
         figure: Callable[[tuple[float, dict[str, float]]], float] = (
@@ -82,7 +82,7 @@ def test_every_level_is_that_of_all_sets(order: list[tuple[str, float]], ceiling
         most = ceiling * max(cost["moment"] for _, cost in sets)
         more["moment_ceiling_Nm"] = most * (1 + 1e-6)
         sets = [pair for pair in sets if pair[1]["moment"] <= most]
-    rest = next((value for value, cost in sets if cost["pieces"] == 0), None)
+    rest = next((objective for objective, cost in sets if cost["pieces"] == 0), None)
     body = {
         "machine": small(),
         "objective": {**WEIGHTS, "priorities": goals, **more},
@@ -112,7 +112,7 @@ def _under(sets: Sets, goals: list[dict[str, Any]]) -> list[float]:
     levels = []
     for priority in goals:
         goal, allowance = priority["goal"], priority["allowance"]
-        figures = [value if goal == "external" else cost[goal] for value, cost in actual_sets]
+        figures = [objective if goal == "external" else cost[goal] for objective, cost in actual_sets]
         least = min(figures)
         levels.append(least)
         most = least + allowance * (rest if goal == "external" else least)
@@ -159,14 +159,14 @@ def test_over_the_turn_and_in_scenarios() -> None:
     _, proof = certified(request_body(machine, **goal) | {"scenarios": [FAST, SLOW]})
     _, u = every_set(machine)
     cases = ((1.0, Loads(machine)), (0.5, Loads(machine | {"speed_rpm": 1300})))
-    value = np.max([weight * loads.peak(u) for weight, loads in cases], axis=0)
+    objective = np.max([weight * loads.peak(u) for weight, loads in cases], axis=0)
     pieces = np.count_nonzero(np.abs(u) > 0, axis=-1)
     mass = np.sum(np.abs(u) / 0.12, axis=-1)
-    most = float(np.min(value)) + 0.1 * float(value[0])
+    most = float(np.min(objective)) + 0.1 * float(objective[0])
     bearings, few, light = proof.goals
-    assert bearings.value == pytest.approx(float(np.min(value)), rel=DEGREE)
+    assert bearings.value == pytest.approx(float(np.min(objective)), rel=DEGREE)
     assert bearings.limit == pytest.approx(most, rel=DEGREE)
-    within = value <= most * (1 - DEGREE)
+    within = objective <= most * (1 - DEGREE)
     assert few.value == few.lower_bound == np.min(pieces[within])
     assert light.value == pytest.approx(float(np.min(mass[within & (pieces == few.value)])), rel=1e-9)
     assert light.lower_bound == pytest.approx(light.value, rel=1e-5)
@@ -178,13 +178,13 @@ def test_cheaper_choices_over_the_turn() -> None:
     body = request_body(machine, bearing_weight=1, force_weight=0, moment_weight=0) | {"alternatives": [0.05, 0.3]}
     optimum, proof = certified(body)
     _, u = every_set(machine)
-    value = Loads(machine).peak(u)
+    objective = Loads(machine).peak(u)
     pieces = np.count_nonzero(np.abs(u) > 0, axis=-1)
     for alternative in optimum.alternatives:
         most = proof.objective * (1 + alternative.allowance)
         assert alternative.objective <= most * (1 + 1e-9)
         if alternative.minimised == "pieces":
-            assert alternative.pieces == np.min(pieces[value <= most * (1 - DEGREE)])
+            assert alternative.pieces == np.min(pieces[objective <= most * (1 - DEGREE)])
             assert alternative.lower_bound == alternative.pieces
     assert {"mass", "pieces"} <= {optimum_alternative.minimised for optimum_alternative in optimum.alternatives}
 

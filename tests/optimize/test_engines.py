@@ -69,7 +69,7 @@ def test_a_cut_may_stand_in_the_second_turn() -> None:
     design = machine()
     # one cylinder alone fires harder than the others
     pressure = design["throws"][1]["rows"][0]["cylinder"]["pressure"]
-    pressure["head"]["pressure_Pa"] = [1.5 * value for value in pressure["head"]["pressure_Pa"]]
+    pressure["head"]["pressure_Pa"] = [1.5 * pressure_Pa for pressure_Pa in pressure["head"]["pressure_Pa"]]
     angles, objectives = [], []
     for later in (0.0, 360.0):
         for row in (throw["rows"][0] for throw in design["throws"]):

@@ -55,10 +55,10 @@ def test_forty_limits_up_to_1e300_beside_a_budget() -> None:
     limits = np.geomspace(1e3, 1e300, 40).tolist()
     request = sweep(issued(1.0), {"path": FAR, "values": limits})
     table = run_chunk(request.model_dump_json().encode(), 0, len(limits)).to_pydict()
-    bound, value = np.array(table["lower_bound"]), np.array(table["objective"])
+    bound, objective = np.array(table["lower_bound"]), np.array(table["objective"])
     assert table["status"] == ["optimal"] * len(limits)
     assert np.all((bound <= 8.68) & (bound >= 8.68 * (1 - 1e-9)))  # analytic
-    assert np.all((value >= 8.68 * (1 - 1e-12)) & (value <= 8.68 + 1.1e-5))
+    assert np.all((objective >= 8.68 * (1 - 1e-12)) & (objective <= 8.68 + 1.1e-5))
 
 
 def test_the_same_in_a_front() -> None:

@@ -30,8 +30,12 @@ def test_all_names_of_figures_are_fields(example: Path) -> None:
     request = json.loads(example.read_bytes())
     answer = optimize(request)
     assert answer.residual.after is not None
-    weights = [{"web": entry.web, "mass_kg": entry.mass_kg} for entry in answer.counterweights if not entry.fixed]
-    weights = [{**entry, "angle_deg": 0.0} for entry in weights]
+    weights = [
+        {"web": counterweight.web, "mass_kg": counterweight.mass_kg}
+        for counterweight in answer.counterweights
+        if not counterweight.fixed
+    ]
+    weights = [{**counterweight, "angle_deg": 0.0} for counterweight in weights]
     if not request["machine"].get("balance_shafts"):
         assert analyze({"machine": request["machine"], "counterweights": weights}).effects
 

@@ -76,10 +76,10 @@ def test_nothing_else_is_chosen_than_with_an_unbalance_of_the_shaft(objective: d
     )
 
 
-@pytest.mark.parametrize(("value", "number"), [(-30.0, 330.0), (390.0, 30.0), (360.0, 0.0)])
-def test_its_angle_is_told_within_one_turn(value: float, number: float) -> None:
+@pytest.mark.parametrize(("angle", "number"), [(-30.0, 330.0), (390.0, 30.0), (360.0, 0.0)])
+def test_its_angle_is_told_within_one_turn(angle: float, number: float) -> None:
     counterweights = {
-        counterweight.web: counterweight for counterweight in optimized(with_fixed(angle_deg=value)).counterweights
+        counterweight.web: counterweight for counterweight in optimized(with_fixed(angle_deg=angle)).counterweights
     }
     assert counterweights["old"].angle_deg == pytest.approx(number, abs=1e-9)
 

@@ -109,12 +109,12 @@ def test_counts_are_of_webs(mirror: bool) -> None:
     body = request_body(PAIRS, mirror, [3.0, 6.0, 9.0], 45.0) | {"counts": {"of": "weights", "least": "objective"}}
     (front,) = pareto(ParetoRequest.model_validate(body)).counts
     mass, u = every_set(body)
-    value, fitted = objective(body, u), np.sum(mass > 0, axis=-1)
+    objectives, fitted = objective(body, u), np.sum(mass > 0, axis=-1)
     for point in front.points:
         assert point.weights is not None
         assert point.weights % 2 == 0
         assert point.weights <= point.at_most
-        assert point.value == pytest.approx(float(np.min(value[fitted <= point.at_most])), rel=1e-9)
+        assert point.value == pytest.approx(float(np.min(objectives[fitted <= point.at_most])), rel=1e-9)
 
 
 @pytest.mark.parametrize(

@@ -86,7 +86,7 @@ def test_part_numbers(goal: dict[str, Any]) -> None:
     optimum, proof = certified(request_body(machine, **goal))
     assert len({counterweight.mass_kg for counterweight in optimum.counterweights if counterweight.mass_kg > 0}) == 1
     sets, u = every_set(machine)
-    alike = np.array([len({mass for mass, _ in entry if mass > 0}) <= 1 for entry in sets])
+    alike = np.array([len({mass for mass, _ in choice if mass > 0}) <= 1 for choice in sets])
     limit = proof.goals[0].limit if "priorities" in goal else None
     values = value(Loads(machine), u, optimum.reference_plane_m, goal, limit)
     least = float(np.min(values[alike]))

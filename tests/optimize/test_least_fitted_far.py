@@ -25,7 +25,7 @@ def _request(example: str, webs: tuple[int, ...], most: float) -> OptimizeReques
 @pytest.mark.parametrize("most", [1e12, 1e15])
 def test_an_answer_is_what_its_status_says(example: str, webs: tuple[int, ...], most: float) -> None:
     """Analytic: of wider limits nothing is worse than nothing at all, and a bound is below what nearer limits reach."""
-    far, near = (optimize(_request(example, webs, value)) for value in (most, 1e4))
+    far, near = (optimize(_request(example, webs, limit_kg)) for limit_kg in (most, 1e4))
     assert far.status in ("optimal", "inaccurate")
     assert far.certificate is not None
     assert near.certificate is not None

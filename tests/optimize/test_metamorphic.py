@@ -2,7 +2,7 @@
 
 An optimum may lie above the smallest objective by 1e-6 of the yardstick, and both answers are at most so far above it.
 So two answers to the same question differ by that much in the objective, and neither bound may be above the value of
-the other answer: the pair of proofs must hold for both. The least mass is told to 1e-4 of itself in either.
+the other answer. The pair of proofs must hold for both. The least mass is told to 1e-4 of itself in either.
 """
 
 import copy
@@ -266,7 +266,7 @@ def test_higher_ceilings_never_hurt(seed: int, step: float) -> None:
 def test_no_jumps_at_the_boundary_of_what_can_be_reached(seed: int, combine: str) -> None:
     """The smallest force as the ceiling, times 1 -+ 1e-3, 1 -+ 1e-9 and 1.
 
-    Clearly above it is optimal, clearly below infeasible; within the tolerance of ceilings either is right, but it is
+    Clearly above it is optimal, clearly below infeasible; within the tolerance of ceilings either is right. But it is
     decided: no answer is inaccurate, and a value is no farther from those beside it than the price of the step.
     """
     body = random_machine(seed)

@@ -72,7 +72,7 @@ def bracket(machine: dict[str, Any], pieces: int) -> tuple[float, float]:
     """
     places, order = every_place(machine), first_order(machine)
     mass = cp.Variable(len(places), complex=True)
-    sums = [sum(cp.abs(value) for value in both) for both in order.terms(mass)]
+    sums = [sum(cp.abs(part_force) for part_force in both) for both in order.terms(mass)]
     goal = sums[0] + sums[1] / order.span
     edge = [cp.Parameter(complex=True) for _ in places]
     floor = [cp.Parameter() for _ in places]

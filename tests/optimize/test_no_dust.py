@@ -77,8 +77,8 @@ def test_a_sweep_fits_what_a_request_does() -> None:
     body = crank(7, np.random.default_rng(0), max_mass_kg=3.0)
     request = sweep(body, {"path": "/machine/webs/2/max_mass_kg", "values": [0.5, 3.0, 30.0]})
     rows = run_chunk(request.model_dump_json().encode(), 0, 3).to_pylist()
-    for line, value in zip(rows, (0.5, 3.0, 30.0), strict=True):
-        body["machine"]["webs"][2]["max_mass_kg"] = value
+    for line, mass in zip(rows, (0.5, 3.0, 30.0), strict=True):
+        body["machine"]["webs"][2]["max_mass_kg"] = mass
         for counterweight in optimized(body).counterweights:
             assert (line[f"mass_kg.{counterweight.web}"], line[f"angle_deg.{counterweight.web}"]) == (
                 counterweight.mass_kg,
@@ -106,8 +106,8 @@ def _with_sectors(rng: np.random.Generator) -> Body:
 
 
 def test_sectors_leave_no_dust() -> None:
-    """Regression: eight of 150 machines had counterweights of 1e-9 to 1e-4 of their largest, as the least mass had
-    used all that optima may differ by; what is left beside a sector's edge has room now."""
+    """Regression: eight of 150 machines had counterweights of 1e-9 to 1e-4 of their largest, as the least mass had used
+    all that optima may differ by. What is left beside a sector's edge has room now."""
     rng = np.random.default_rng(2)
     dusty = 0
     for _ in range(150):

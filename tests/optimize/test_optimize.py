@@ -139,7 +139,7 @@ def test_no_random_counterweights_beat_the_bound(seed: int) -> None:
     body = random_machine(seed)
     optimum = answer(body)
     rng = np.random.default_rng(seed)
-    planes = [entry["position_m"] for entry in (*body["throws"], *body["webs"])]
+    planes = [part["position_m"] for part in (*body["throws"], *body["webs"])]
     span = max(planes) - min(planes)
     for _ in range(30):
         weights, left = [], body["max_total_mass_kg"] or math.inf
@@ -150,8 +150,8 @@ def test_no_random_counterweights_beat_the_bound(seed: int) -> None:
             angle = sector["centre_deg"] + sector["half_angle_deg"] * rng.uniform(-1, 1)
             weights.append({"web": place["name"], "mass_kg": mass, "angle_deg": angle})
         peaks = np.max(np.abs(first_order(body, weights, np.arange(0.0, 360.0, 2.0))), axis=-1)
-        value = peaks[0] + peaks[1] / span
-        assert value >= optimum.certificate.lower_bound * (1 - 1e-3)  # the grid of 2 degrees sees 1e-3 less
+        objective = peaks[0] + peaks[1] / span
+        assert objective >= optimum.certificate.lower_bound * (1 - 1e-3)  # the grid of 2 degrees sees 1e-3 less
 
 
 # ---- ordinary cases that are easily forgotten
@@ -184,7 +184,7 @@ def test_a_balanced_machine_needs_nothing() -> None:
 
 def test_default_moment_weight_is_one_over_the_span() -> None:
     body = random_machine(5)
-    planes = [entry["position_m"] for entry in (*body["throws"], *body["webs"])]
+    planes = [part["position_m"] for part in (*body["throws"], *body["webs"])]
     span = max(planes) - min(planes)
     certificate = answer(body, moment_weight=1 / span).certificate
     assert answer(body).certificate.objective == pytest.approx(certificate.objective, rel=1e-12)

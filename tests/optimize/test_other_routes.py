@@ -73,11 +73,11 @@ def test_the_least_mass_over_the_revolution() -> None:
     weights = cvxpy.Variable(len(webs), complex=True)
     rows, largest = load(body), cvxpy.Variable()
     limits = [cvxpy.abs(weights) <= [web["max_mass_kg"] * web["counterweight_radius_m"] for web in webs]]
-    for here, value in ((first, last), (last, first)):
+    for here, there in ((first, last), (last, first)):
 
-        def share(place: float, here: float = here, value: float = value) -> float:
+        def share(place: float, here: float = here, level: float = there) -> float:
             """Lever rule."""
-            return (place - value) / (here - value)
+            return (place - level) / (here - level)
 
         still = sum(share(plane) * force for plane, force in zip(rows.planes, rows.forces, strict=True))
         added = sum(share(web["position_m"]) * weights[k] for k, web in enumerate(webs))

@@ -1,5 +1,5 @@
 """Counterweights cut from plates with goals over a revolution, in their order, in scenarios, with tolerances, under
-ceilings and a budget at once: against every opening of two plates, by mechanics of their own.
+ceilings and a budget at once. They are held against every opening of two plates, by mechanics of their own.
 
 Independent: one row on two webs, whose counterweights stand against the crank. Force, moment and loads come from the
 exact stroke, masses and unbalances from the integrals over a sector and a segment.
@@ -70,7 +70,7 @@ def cut(front: Real, rear: Real) -> Cut:
 def openings(answer: Any = None) -> Cut:
     """All openings of both plates, and closer ones about an answer."""
     most = np.deg2rad([90.0, 60.0])
-    grids = [[np.linspace(0.0, value, 81) for value in most]]
+    grids = [[np.linspace(0.0, limit_kg, 81) for limit_kg in most]]
     if answer is not None:
         shapes = [counterweight.shape for counterweight in answer.counterweights]
         half = np.deg2rad([0.0 if shape is None else shape.half_angle_deg for shape in shapes])
@@ -79,7 +79,8 @@ def openings(answer: Any = None) -> Cut:
             for width in (3e-2, 1e-3, 3e-5)
         ]
     front, rear = (
-        np.concatenate(value) for value in zip(*(map(np.ravel, np.meshgrid(*g)) for g in grids), strict=True)
+        np.concatenate(grid_masses)
+        for grid_masses in zip(*(map(np.ravel, np.meshgrid(*g)) for g in grids), strict=True)
     )
     return cut(front, rear)
 
@@ -218,13 +219,13 @@ def test_no_opening_beats_what_is_proven(name: str, budget: float | None) -> Non
     assert proof.mass_lower_bound_kg is not None
     assert proof.mass_objective_limit is not None
     every = openings(answer)
-    value, allowed = objective(every.unbalance), function(every.unbalance)
+    objectives, allowed = objective(every.unbalance), function(every.unbalance)
     allowed &= every.mass <= (np.inf if budget is None else budget * (1 + 1e-12))
-    best = np.min(value[allowed])
+    best = np.min(objectives[allowed])
     assert proof.lower_bound <= best * (1 + 1e-9)
     assert proof.yardstick is not None
     assert proof.objective <= best + 1.1e-6 * proof.yardstick
-    optima = allowed & (value <= proof.mass_objective_limit)
+    optima = allowed & (objectives <= proof.mass_objective_limit)
     assert np.min(every.mass[optima], initial=np.inf) >= proof.mass_lower_bound_kg * (1 - 1e-9)
     assert answer.total_mass_kg == pytest.approx(proof.mass_lower_bound_kg, rel=1e-4)
     # what is answered is what is cut
@@ -270,7 +271,7 @@ def test_no_opening_is_below_the_corner_of_a_point(names: list[str]) -> None:
         every = openings(point)
         figures = Figures(every.unbalance)
         of = {"force": figures.force, "moment": figures.moment, "bearings": figures.load, "mass": every.mass}
-        corner = [0.0 if value is None else value for value in point.certificate.corner]
+        corner = [0.0 if coordinate is None else coordinate for coordinate in point.certificate.corner]
         below = [of[name] < least * (1 - 1e-9) for name, least in zip(names, corner, strict=True)]
         assert not np.any(np.all(below, axis=0))
 

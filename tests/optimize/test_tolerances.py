@@ -92,8 +92,8 @@ def test_errors_in_the_worst_direction_come_to_the_worst_case_of_the_larger_peak
 
 def _larger_peak(machine: dict[str, Any], u: Any, radius: Any) -> float:
     fitted = [
-        {"web": web["name"], "mass_kg": abs(value) / r, "angle_deg": np.rad2deg(np.angle(value))}
-        for web, value, r in zip(machine["webs"], u, radius, strict=True)
+        {"web": web["name"], "mass_kg": abs(unbalance) / r, "angle_deg": np.rad2deg(np.angle(unbalance))}
+        for web, unbalance, r in zip(machine["webs"], u, radius, strict=True)
     ]
     after = analyze(AnalyzeRequest.model_validate({"machine": machine, "counterweights": fitted})).residual
     assert after is not None
@@ -223,7 +223,7 @@ def test_the_bound_is_what_its_multipliers_prove_by_hand() -> None:
 
 
 def _complex(phasor: Any) -> complex:
-    first, second = [value for name, value in phasor.model_dump().items() if name.startswith(("real", "imag"))]
+    first, second = [component for name, component in phasor.model_dump().items() if name.startswith(("real", "imag"))]
     return complex(first, second)
 
 

@@ -74,8 +74,8 @@ def test_bearings_and_stages_know_it(output: str) -> None:
         for body in (with_own((0.1, X, Y)), as_a_throw(0.1))
     )
     if output == "stages":
-        assert [entry["value"] for entry in own] == pytest.approx(
-            [entry["value"] for entry in throw], rel=1e-9, abs=1e-6
+        assert [multiplier["value"] for multiplier in own] == pytest.approx(
+            [multiplier["value"] for multiplier in throw], rel=1e-9, abs=1e-6
         )
     else:
         for bearing, second_bearing in zip(own["bearings"], throw["bearings"], strict=True):
@@ -128,8 +128,8 @@ def test_sweeps_vary_it() -> None:
     body = with_own((0.1, X, Y))
     request = sweep(body, {"path": "/machine/unbalances/0/x_kg_m", "values": [-1.0, 0.0, 2.0]})
     rows = run_chunk(request.model_dump_json().encode(), 0, 3).to_pylist()
-    for row, value in zip(rows, (-1.0, 0.0, 2.0), strict=True):
-        body["machine"]["unbalances"][0]["x_kg_m"] = value
+    for row, offset in zip(rows, (-1.0, 0.0, 2.0), strict=True):
+        body["machine"]["unbalances"][0]["x_kg_m"] = offset
         alone = optimized(body)
         assert row["total_mass_kg"] == alone.total_mass_kg
         assert row["force_peak_N"] == alone.residual.after.force.peak_N

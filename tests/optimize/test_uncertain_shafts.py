@@ -59,8 +59,8 @@ def test_unbalances_are_midway_between_two_pistons() -> None:
 )
 def test_each_shaft_is_off_in_its_worst_direction(tolerances: dict[str, float], left: float) -> None:
     optimum = answer(BACKWARDS, FORCE, tolerances=tolerances)
-    for value in (optimum.certificate.objective, optimum.worst_case.objective, optimum.worst_case.force_peak_N):
-        assert value == pytest.approx(left * WHOLE, rel=1e-4)
+    for figure in (optimum.certificate.objective, optimum.worst_case.objective, optimum.worst_case.force_peak_N):
+        assert figure == pytest.approx(left * WHOLE, rel=1e-4)
 
 
 def off_by(rng: np.random.Generator, weights: list[dict[str, Any]], share: float, degrees: float) -> None:

@@ -71,7 +71,7 @@ def test_the_summary_names_all_that_is_left_published() -> None:
     """An opposed pair: no forces; a moment of each order in the plane of the axes."""
     left = stages_by_name(*opposed([0, 180], [0.3, -0.3]))["VIII"].left
     assert left is not None
-    assert [(entry.quantity, entry.order, entry.motion) for entry in left if entry.motion != "none"] == [
+    assert [(part.quantity, part.order, part.motion) for part in left if part.motion != "none"] == [
         ("moment", 1, "ellipse"), ("moment", 2, "fixed"),
     ]  # fmt: skip
 

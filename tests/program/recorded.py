@@ -242,7 +242,10 @@ def _sampled(name: str) -> list[Any]:
 
 def _cuts(several: Iterable[Sequence[Any]]) -> list[Any]:
     every = list(chain(*several))
-    return [np.array([[entry.lower, entry.upper] for entry in every]), _of_cuts([entry.cut for entry in every])]
+    return [
+        np.array([[bracket.lower, bracket.upper] for bracket in every]),
+        _of_cuts([bracket.cut for bracket in every]),
+    ]
 
 
 def _of_cuts(cuts: Sequence[Cut]) -> list[Any]:
@@ -267,10 +270,10 @@ def _proven(name: str) -> list[Any]:
     penalty = under_levels(begun, program, 0.8 * rest.goals[:-1], 0.1, 3.0)
     norms = [begun.norms, begun.floor, begun.group, begun.ceilings.cap, begun.ceilings.size, program.units]
     values = program.values(u, 1e-9)
-    value, _ = program.sample_values(u, np.zeros(len(program.quantities)))
+    samples, _ = program.sample_values(u, np.zeros(len(program.quantities)))
     return [
         norms, rest.goals, _of_proof(resting_proof(program, program.first, begun)), proven, penalty.floor,
-        penalty.norms, values.goals, values.excess, values.over_budget, value.goals,
+        penalty.norms, values.goals, values.excess, values.over_budget, samples.goals,
         floor_multipliers(program, program.first, begun),
         program.sizes, program.yardsticks,
         *(largest_last_goals(program, u, values.reached, 0.1, 0.05) if name in ("bearings", "rms", "beside") else ()),

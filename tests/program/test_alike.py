@@ -46,11 +46,11 @@ def points(seed: int, count: int) -> Complex:
 def test_the_nearest_is_alike_and_nearest(group: tuple[tuple[int, ...], tuple[bool, ...]], seed: int) -> None:
     """Analytic: a projection; what it leaves pulls at nothing that is alike."""
     webs = alike(*group, seed)
-    u, value = points(seed, 2)
+    u, v = points(seed, 2)
     near = webs.nearest(u)
     assert np.allclose(webs.nearest(near), near, rtol=0, atol=1e-12)
     assert np.allclose(np.abs(near), np.abs(near)[list(webs.leader)], rtol=0, atol=1e-12)
-    assert abs(np.sum((np.conj(u - near) * webs.nearest(value)).real)) <= 1e-12
+    assert abs(np.sum((np.conj(u - near) * webs.nearest(v)).real)) <= 1e-12
 
 
 @given(ANY, SEED)

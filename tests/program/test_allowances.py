@@ -35,17 +35,17 @@ def test_a_sector_opens_by_what_its_support_grows() -> None:
                 supports.append(float(limits.support(g)[0]))
                 opening = float(limits.opening(g)[0]) if moved == 0.0 else 0.0
                 if moved == 0.0:
-                    value = opening
+                    derivative = opening
             low, high = (supports[1] - supports[0]) / step, (supports[2] - supports[1]) / step
             if abs(low - high) < 1e-4:
-                assert value == pytest.approx(0.5 * (low + high), abs=1e-5)
-                grown += value > 0.01
+                assert derivative == pytest.approx(0.5 * (low + high), abs=1e-5)
+                grown += derivative > 0.01
     assert grown > 20
     free = Limits(np.ones(2), np.ones(2), np.array([True, False]), np.ones(2) + 0j, np.zeros(2) + 0.8, np.ones(2) * 0.6,
                   np.asarray(np.inf))  # fmt: skip
     # analytic: at 60 degrees the edge at 36.87 degrees is left by 23.13
-    value = free.opening(2.0 * direction(np.array([60.0, 60.0])))
-    assert value == pytest.approx([0.0, 2.0 * np.sin(np.deg2rad(60.0 - np.rad2deg(np.arctan2(0.6, 0.8))))])
+    derivative = free.opening(2.0 * direction(np.array([60.0, 60.0])))
+    assert derivative == pytest.approx([0.0, 2.0 * np.sin(np.deg2rad(60.0 - np.rad2deg(np.arctan2(0.6, 0.8))))])
 
 
 @pytest.mark.parametrize("kind", ["ceiling", "group, sector, budget, ceiling, scatter"])
@@ -97,9 +97,9 @@ def test_a_minorant_is_below_the_objective_of_all_that_keep_the_ceilings(kind: s
         for n in range(20):
             u = 0.2 * n / 20 * random_point(np.random.default_rng(n), program.limits)
             if np.all(program.ceilings.excess(u) <= 1e-9):
-                value = constant + np.sum((np.conj(slope) * u).real)
+                response = constant + np.sum((np.conj(slope) * u).real)
                 # counterweights that scatter raise the objective by more
-                above.append(program.objective(u) - value + np.sum(rounding * np.abs(u)))
+                above.append(program.objective(u) - response + np.sum(rounding * np.abs(u)))
         assert min(above, default=0.0) >= -1e-12
     nothing, _, _ = affine_minorant(program, nothing_proven(program))
     assert nothing == -np.inf

@@ -45,12 +45,12 @@ def test_an_answer_is_as_good_and_as_well_proven_as_it_was(name: str) -> None:
         assert fitted == before
 
 
-def _near(value: float | None, recorded: float | None, off: float) -> bool:
-    return value == recorded or (value is not None and recorded is not None and abs(value - recorded) <= off)
+def _near(figure: float | None, recorded: float | None, off: float) -> bool:
+    return figure == recorded or (figure is not None and recorded is not None and abs(figure - recorded) <= off)
 
 
 def _alike(fields: dict[str, Any], recorded: dict[str, Any]) -> None:
     assert fields["conflict"] == recorded["conflict"]
-    for field, value in recorded.items():
-        if field.startswith("smallest_") and isinstance(value, float):
-            assert fields[field] == pytest.approx(value, rel=1e-5, abs=1e-9), field
+    for field, figure in recorded.items():
+        if field.startswith("smallest_") and isinstance(figure, float):
+            assert fields[field] == pytest.approx(figure, rel=1e-5, abs=1e-9), field

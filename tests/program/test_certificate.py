@@ -38,10 +38,10 @@ def test_bounds_never_exceed_the_value_of_an_admissible_point(seed: int, case: t
         return  # the bound speaks only of points that keep the ceilings
     for _ in range(5):
         multipliers = _random_multipliers(rng, problem)
-        value = float(problem.objective(u))
-        assert objective_lower_bound(problem, multipliers) <= value + 1e-12 * abs(value)
+        objective = float(problem.objective(u))
+        assert objective_lower_bound(problem, multipliers) <= objective + 1e-12 * abs(objective)
         price = 10.0 ** rng.uniform(-3, 3)
-        bound = mass_lower_bound(problem, multipliers.times(np.asarray(price)), np.asarray(value))
+        bound = mass_lower_bound(problem, multipliers.times(np.asarray(price)), np.asarray(objective))
         assert bound <= float(problem.mass(u)) * (1 + 1e-12)
 
 
@@ -68,9 +68,9 @@ def test_the_least_over_the_limits_is_the_knapsack(seed: int, budget: bool) -> N
     multipliers = replace(multipliers, row=np.abs(multipliers.row))
     constant, slope, _ = affine_minorant(problem, multipliers)
     limits = problem.limits
-    value = -limits.radius * limits.support(-slope)
+    lowest = -limits.radius * limits.support(-slope)
     constraint = {"A_ub": np.ones((1, 5)), "b_ub": [limits.max_total_mass]} if budget else {}
-    expected = float(constant) + linprog(value, bounds=[(0, m) for m in limits.max_mass], **constraint).fun
+    expected = float(constant) + linprog(lowest, bounds=[(0, m) for m in limits.max_mass], **constraint).fun
     bound = objective_lower_bound(problem, multipliers)
     assert bound == pytest.approx(expected, rel=1e-12, abs=1e-12)
     assert bound <= expected + 1e-15 * abs(expected)

@@ -91,12 +91,12 @@ def test_bounds_are_never_above_what_another_point_comes_to(seed: int, beside: b
         point = random_point(rng, program.limits)
         near = program.limits.into(best.point.unbalance + 0.05 * (point - best.point.unbalance))
         for u in (point, near):
-            value = float(program.values(u, 1e-9).goals[0])
+            objective = float(program.values(u, 1e-9).goals[0])
             mass = float(np.sum(np.abs(u) / program.limits.radius))
-            assert best.goals[-1].lower_bound <= value * (1 + 1e-12)
+            assert best.goals[-1].lower_bound <= objective * (1 + 1e-12)
             # of the mass: whatever target it is asked for
             multipliers, posed = best.mass_proof.multipliers, best.mass_proof.statement
-            assert mass_lower_bound(posed, multipliers, np.asarray(value)) <= mass * (1 + 1e-12)
+            assert mass_lower_bound(posed, multipliers, np.asarray(objective)) <= mass * (1 + 1e-12)
     # the proof is a statement of today's kind
     assert float(objective_lower_bound(best.proof.statement, best.proof.multipliers)) == best.goals[-1].lower_bound
 
@@ -106,17 +106,17 @@ def test_a_mass_is_proven_for_all_that_come_to_more_at_its_price(seed: int) -> N
     best = optimum_of(bearings(seed, count=3, webs=3), 1e-4, least_mass=True)
     assert best.mass_proof is not None
     assert best.counting(0.5 * best.mass_target) is best
-    value = best.mass_target * (1.0 + 1e-6)
-    more = best.counting(value)
-    assert more.mass_target == value
+    mass_limit = best.mass_target * (1.0 + 1e-6)
+    more = best.counting(mass_limit)
+    assert more.mass_target == mass_limit
     assert more.mass_proof is not None
     assert more.mass_proof.bound <= best.mass_proof.bound
     # independent: by the same multipliers with the other target
-    again = float(mass_lower_bound(best.mass_proof.statement, best.mass_proof.multipliers, np.asarray(value)))
+    again = float(mass_lower_bound(best.mass_proof.statement, best.mass_proof.multipliers, np.asarray(mass_limit)))
     assert more.mass_proof.bound == pytest.approx(again, rel=1e-10)
     # that no mass is below 0 is proven by nothing, and counts those beyond any target as well
-    ended = replace(best, mass_proof=None, timed_out=True).counting(value)
-    assert (ended.mass_target, ended.mass_proof) == (value, None)
+    ended = replace(best, mass_proof=None, timed_out=True).counting(mass_limit)
+    assert (ended.mass_target, ended.mass_proof) == (mass_limit, None)
 
 
 @pytest.mark.parametrize("seed", range(3))

@@ -31,11 +31,11 @@ def along_axes(caps: list[float]) -> tuple[Statement, np.ndarray, np.ndarray]:
 def test_discs_hold_what_is_between_the_lines(caps: list[float]) -> None:
     """Metamorphic: by vectors within reach, also under ceilings far above what these come to."""
     whole, reach, u = along_axes(caps)
-    verdict = np.all(whole.ceilings.excess(u) <= 0.0, axis=-1)
+    feasible = np.all(whole.ceilings.excess(u) <= 0.0, axis=-1)
     wide, narrow = (
         np.all(in_discs(whole, reach, inside).ceilings.excess(u) <= 0.0, axis=-1) for inside in (False, True)
     )
-    assert np.any(verdict)
-    assert np.all(wide[verdict])
-    assert np.all(verdict[narrow])
-    assert np.sum(verdict & ~narrow) <= 0.01 * np.sum(verdict)
+    assert np.any(feasible)
+    assert np.all(wide[feasible])
+    assert np.all(feasible[narrow])
+    assert np.sum(feasible & ~narrow) <= 0.01 * np.sum(feasible)

@@ -17,7 +17,7 @@ from tests.program.test_settled import in_planes
 
 
 def _point(objective: float = 1.0, mass: float = 2.0, excess: float = 0.0) -> Points:
-    return Points(np.zeros((1, 2), complex), *(np.array([value]) for value in (objective, mass, excess, 1e-12)))
+    return Points(np.zeros((1, 2), complex), *(np.array([figure]) for figure in (objective, mass, excess, 1e-12)))
 
 
 @pytest.mark.parametrize(

@@ -127,14 +127,16 @@ def test_bounds_of_groups_never_exceed_the_value_of_an_admissible_point(seed: in
     problem = _groups(seed)
     rng = np.random.default_rng(seed + 1)
     u = random_point(rng, problem.limits)
-    value = float(problem.objective(u))
+    objective = float(problem.objective(u))
     row = np.abs(rng.normal(size=3)) * np.where(np.arange(3) == 0, float(not empty), 1.0)
     # near the best ones for these rows, and far from them
     best = np.exp(1j * np.angle(problem.norms.at(u))) * row[problem.row]
     for term in (best, rng.normal(size=(best.size, 2)) @ [1, 1j]):
         multipliers = Multipliers(term, row, np.zeros(0, complex))
-        assert objective_lower_bound(problem, multipliers) <= value * (1 + 1e-12)
-        bound = mass_lower_bound(problem, multipliers.times(np.asarray(10.0 ** rng.uniform(-3, 3))), np.asarray(value))
+        assert objective_lower_bound(problem, multipliers) <= objective * (1 + 1e-12)
+        bound = mass_lower_bound(
+            problem, multipliers.times(np.asarray(10.0 ** rng.uniform(-3, 3))), np.asarray(objective)
+        )
         assert bound <= float(problem.mass(u)) * (1 + 1e-12)
 
 

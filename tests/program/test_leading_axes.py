@@ -155,10 +155,10 @@ def test_programs_together_are_as_each_alone(name: str, kind: str) -> None:
     )
     function = FUNCTIONS[name]
     actual_function = function(wide, _wide(np.stack(points)), proof)
-    functions = [function(*entry) for entry in zip(alone, points, proofs, strict=True)]
+    functions = [function(*arguments) for arguments in zip(alone, points, proofs, strict=True)]
     assert len(actual_function) == len(functions[0]) > 0
     for part, expected in zip(actual_function, zip(*functions, strict=True), strict=True):
-        single = np.stack([np.asarray(value) for value in expected])
+        single = np.stack([np.asarray(expectation) for expectation in expected])
         assert np.shape(part) == (*LEADING, *single.shape[1:])
         size = np.max(np.abs(single[np.isfinite(single)]), initial=0.0)
         np.testing.assert_allclose(np.reshape(part, single.shape), single, rtol=1e-10, atol=1e-12 * size)

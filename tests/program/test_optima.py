@@ -46,12 +46,12 @@ def reference(problem: Statement, *targets: float) -> list[float]:
     if ceilings.names:
         constraints.append(cp.abs(ceilings.norms.constant + ceilings.norms.influence @ u) <= ceilings.cap)
     rows = [floor + cp.sum(terms[problem.row == r]) for r, floor in enumerate(problem.floor)]
-    value = cp.maximum(*rows) if len(rows) > 1 else rows[0]
+    objective = cp.maximum(*rows) if len(rows) > 1 else rows[0]
     if not targets:
-        return [_value(cp.Problem(cp.Minimize(value), constraints))]
+        return [_value(cp.Problem(cp.Minimize(objective), constraints))]
     # a parameter, as to make a model takes longer than to solve it
     target = cp.Parameter()
-    goal = cp.Problem(cp.Minimize(cp.sum(mass)), [*constraints, value <= target])
+    goal = cp.Problem(cp.Minimize(cp.sum(mass)), [*constraints, objective <= target])
     values = []
     for target.value in targets:
         values.append(_value(goal))

@@ -112,9 +112,9 @@ def test_one_norm_comes_to_what_is_said_at_worst() -> None:
     program = Problem(
         (), (Goal("all", (Group(rows=(Row("force", (weighted_peak(response, 1.0),)),)),)),), (), (), wide(1)
     )
-    for share, at, value in ((0.0, -1.0, 0.0), (0.1, -1.0, 0.1), (0.99, -1.0, 0.99), (1.5, 0.0, 1.0)):
+    for share, at, share_off in ((0.0, -1.0, 0.0), (0.1, -1.0, 0.1), (0.99, -1.0, 0.99), (1.5, 0.0, 1.0)):
         optimum = best(replace(program, scatter=Scatter(share)))
-        assert optimum.goals[-1].value == pytest.approx(value, abs=1e-6)
+        assert optimum.goals[-1].value == pytest.approx(share_off, abs=1e-6)
         assert optimum.point.unbalance[0] == pytest.approx(at, abs=2e-6)
 
 
@@ -174,7 +174,7 @@ def test_the_worst_of_all_counterweights_off_together(webs: int) -> None:
 def test_counterweights_along_the_axis_are_turned_like_all_others(towards: tuple[float, float]) -> None:
     """Analytic: what two opposite vectors and a third that cancels them come to, whichever way their angles round."""
     vectors = np.array([3.0, 1.0]) * np.exp(1j * np.array(towards))
-    vectors.imag = [np.copysign(0.0, np.sin(value)) for value in towards]
+    vectors.imag = [np.copysign(0.0, np.sin(angle)) for angle in towards]
     norms = Norms(np.array([-np.sum(vectors)]), np.ones((1, 2)))
     # both are turned across the axis, either way
     assert worst_by_angle(norms, vectors, 0.01) == pytest.approx(4.0 * 2 * np.sin(0.005), rel=1e-3)

@@ -83,12 +83,12 @@ def test_bounds_are_never_above_what_another_point_comes_to(seed: int, least_mas
     for scale in (0.0, 1e-3, 0.1, 1.0):
         point = random_point(rng, problem.limits)
         u = problem.limits.into(best.point.unbalance + scale * (point - best.point.unbalance))
-        value = sum((1.0 + q) * sampled(problem_quantity, u) for q, problem_quantity in enumerate(problem.quantities))
-        assert best.goals[-1].lower_bound <= value + 4e-3 * rest
+        weighed = sum((1.0 + q) * sampled(problem_quantity, u) for q, problem_quantity in enumerate(problem.quantities))
+        assert best.goals[-1].lower_bound <= weighed + 4e-3 * rest
         brackets = problem.values(u, 1e-9)
         assert best.goals[-1].lower_bound <= float(brackets.goals[0]) * (1.0 + 1e-12)
-        assert value <= float(brackets.goals[0]) * (1.0 + 1e-9)
-        assert float(brackets.goals[0]) <= value + 8e-3 * rest
+        assert weighed <= float(brackets.goals[0]) * (1.0 + 1e-9)
+        assert float(brackets.goals[0]) <= weighed + 8e-3 * rest
 
 
 @pytest.mark.parametrize("seed", range(2))
@@ -97,12 +97,12 @@ def test_a_ceiling_on_a_scalar_is_kept_and_proven(seed: int) -> None:
     free = over_turn(program(seed, beside=False), 1e-7, False)
     assert isinstance(free, CertifiedOptimum)
     least, problem = free.goals[-1], program(seed)
-    entry = (Goal("force", (Group(weighed=(Weighed(1, 1.0),)),)),)
-    optimum = over_turn(replace(problem, goals=entry, limited=((0, 1.2 * least.value),)), 1e-6, True)
+    goals = (Goal("force", (Group(weighed=(Weighed(1, 1.0),)),)),)
+    optimum = over_turn(replace(problem, goals=goals, limited=((0, 1.2 * least.value),)), 1e-6, True)
     assert isinstance(optimum, CertifiedOptimum)
     assert sampled(problem.quantities[0], optimum.point.unbalance) <= 1.2 * least.value * (1.0 + 1e-9)
     assert optimum.goals[-1].value - optimum.goals[-1].lower_bound <= 1e-6 * float(problem.alone(0).yardsticks[0])
-    below = over_turn(replace(problem, goals=entry, limited=((0, 0.999 * least.lower_bound),)), 1e-6, True)
+    below = over_turn(replace(problem, goals=goals, limited=((0, 0.999 * least.lower_bound),)), 1e-6, True)
     assert isinstance(below, Conflict)
 
 

@@ -322,7 +322,7 @@ def test_a_step_solves_the_linearised_equations(budget: bool) -> None:
         if budgeted:
             spent = own["BUDGET"] * np.sum(cost * dx)
             off.append(np.array([own["LEFT"] * d_price - spent - own["R_LEFT"]]))
-        assert max(float(np.max(np.abs(value))) for value in off) <= 1e-12
+        assert max(float(np.max(np.abs(distances))) for distances in off) <= 1e-12
 
 
 def _dot(first: np.ndarray, second: np.ndarray) -> np.ndarray:

@@ -149,10 +149,10 @@ def test_widths_and_gaps_that_are_wanted_are_shares_of_what_is_asked() -> None:
     search, inside = _search(program, 1e9)
     assert (search.of_mass, search.free) == (False, False)
     size = program.units
-    value = 1e-9 / float(size[0])
+    allowance = 1e-9 / float(size[0])
     assert search._gap_limit(0.3, inside) == 0.3
-    assert search._width(1e-9, np.inf) == pytest.approx(0.1 * min(value, 1e-9 / float(size[-1])))
-    assert search._width(1e-12, 1.0) == pytest.approx(0.1 * min(value, 0.1 / float(size[-1])))
+    assert search._width(1e-9, np.inf) == pytest.approx(0.1 * min(allowance, 1e-9 / float(size[-1])))
+    assert search._width(1e-12, 1.0) == pytest.approx(0.1 * min(allowance, 0.1 / float(size[-1])))
     search.price = np.array([2.0])
     search._spare(1e-10)
     assert search.margin == pytest.approx([max(1e-12 * float(size[0]), 0.1 * 1e-10 / 2.0)])

@@ -127,7 +127,8 @@ def test_of_kinds_that_differ_nothing_is_alike() -> None:
 def test_it_can_be_left_out() -> None:
     body = json.loads((EXAMPLES / "v8-cross-plane.json").read_bytes())
     plain, answer = (
-        optimize(OptimizeRequest.model_validate({**body, "objective": {"symmetric": value}})) for value in (False, True)
+        optimize(OptimizeRequest.model_validate({**body, "objective": {"symmetric": symmetric}}))
+        for symmetric in (False, True)
     )
     assert plain.status == answer.status == "optimal"
     masses = [counterweight.mass_kg for counterweight in answer.counterweights]

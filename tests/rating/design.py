@@ -75,13 +75,13 @@ def rods(diameter_m: float) -> list[tuple[str, Any]]:
 
 def figure(name: str) -> tuple[Any, Any, float]:
     """Inputs, expected figures and tolerance of a check of the seed."""
-    value = next(entry for entry in FIGURES["checks"] if entry["id"] == name)
+    value = next(check for check in FIGURES["checks"] if check["id"] == name)
     return value["inputs"], value["expected"], value["atol"]
 
 
-def near(value: Any, atol: float) -> Any:
+def near(figure: Any, atol: float) -> Any:
     """Equal within an absolute tolerance alone."""
-    return pytest.approx(value, rel=0, abs=atol)
+    return pytest.approx(figure, rel=0, abs=atol)
 
 
 def _number(low: float, high: float) -> st.SearchStrategy[float]:

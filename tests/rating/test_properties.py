@@ -125,8 +125,8 @@ def test_indicated_power_is_the_area_of_the_diagram_independent() -> None:
         return float(np.trapezoid(p * (v / np.exp(x)) ** n * np.exp(x), x))
 
     taken = small * (p_d / p_s) ** (1 / n)
-    value = large * (p_s / p_d) ** (1 / n)
-    total = work(p_d, small, p_s) + p_s * (large - taken) + work(p_s, large, p_d) + p_d * (small - value)
+    clearance_gas = large * (p_s / p_d) ** (1 / n)
+    total = work(p_d, small, p_s) + p_s * (large - taken) + work(p_s, large, p_d) + p_d * (small - clearance_gas)
     lam_v = 1 - clearance * ((p_d / p_s) ** (1 / n) - 1)
     assert indicated_power(p_s, volume, lam_v, p_d / p_s, n, 600.0) == pytest.approx(-10 * total, rel=1e-9)
 

@@ -91,7 +91,7 @@ def test_bores_published() -> None:
 
 def test_corrected_losses_published() -> None:
     inputs, expected, atol = figure("004-loss")
-    assert [corrected_loss(value, inputs["Cm"], 1.0) for value in inputs["delta"]] == near(expected["delta_c"], atol)
+    assert [corrected_loss(loss, inputs["Cm"], 1.0) for loss in inputs["delta"]] == near(expected["delta_c"], atol)
 
 
 def test_piston_speed_is_that_of_the_machine_analytic() -> None:
@@ -158,4 +158,4 @@ def test_expansion_exponents_of_another_gas_analytic() -> None:
 
 def test_no_figure_is_left_out() -> None:
     assert len(FIGURES["checks"]) == 14
-    assert {entry["label"] for entry in FIGURES["checks"]} == {"published", "analytic"}
+    assert {check["label"] for check in FIGURES["checks"]} == {"published", "analytic"}

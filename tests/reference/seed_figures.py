@@ -25,8 +25,8 @@ def checks(topic: str) -> list[Any]:
 
 def check(name: str) -> Any:
     """Inputs and expected figures of one check."""
-    value = next(c for c in _FILE["checks"] if c["id"] == name)
-    return value["inputs"], value["expected"]
+    check = next(c for c in _FILE["checks"] if c["id"] == name)
+    return check["inputs"], check["expected"]
 
 
 def as_arrays(inputs: Any) -> Layout:

@@ -41,12 +41,12 @@ def test_force_of_a_counterweight_and_moment_of_a_pair_published() -> None:
     inputs, expected = check("002-cw-force")
     half = inputs["l_np"] / 2
     arrays = layout(machine(throw(0), webs=[web("a", half), web("b", -half)]))
-    value = inputs["m_np"] * inputs["r_np"]
+    unbalance = inputs["m_np"] * inputs["r_np"]
     square = inputs["omega"] ** 2
-    assert counterweights(arrays, np.array([value + 0j, 0])).force.peak * square == pytest.approx(
+    assert counterweights(arrays, np.array([unbalance + 0j, 0])).force.peak * square == pytest.approx(
         expected["J"], rel=RTOL
     )
-    pair = counterweights(arrays, np.array([value + 0j, -value]))
+    pair = counterweights(arrays, np.array([unbalance + 0j, -unbalance]))
     assert pair.force.peak == 0.0
     assert pair.moment.peak * square == pytest.approx(expected["M"], rel=RTOL)
 

@@ -51,8 +51,8 @@ def _inertia(inputs: Any) -> dict[str, Real]:
 
 
 def _gas(inputs: Any) -> dict[str, Real]:
-    def both(value: float) -> Real:
-        return np.full((1, 2), value)
+    def both(force: float) -> Real:
+        return np.full((1, 2), force)
 
     layout = _single_row(inputs)
     chambers = Chambers(

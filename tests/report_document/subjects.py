@@ -170,7 +170,7 @@ def _answered(name: str, body: Any) -> Subject:
     computation = COMPUTATIONS[name]
     assert computation.chapters is not None
     request, chapters = computation.request_model.model_validate(body), resolve_name(computation.chapters)
-    return Subject(computation.function(request), lambda value: chapters(request, value), ("effects.", "timing."))
+    return Subject(computation.function(request), lambda answer: chapters(request, answer), ("effects.", "timing."))
 
 
 def _match() -> Subject:
@@ -182,13 +182,13 @@ def _match() -> Subject:
 def _optimum_subject(body: Any) -> Subject:
     # what weighs loads or the roll moment calls for more of a machine
     silent = ("accuracy.", "angles.", *(f"objective.{name}_weight" for name in ("bearing", "bending", "roll")))
-    return Subject(OptimizeRequest.model_validate(body), lambda value: [inputs(value, 0.07)], silent)
+    return Subject(OptimizeRequest.model_validate(body), lambda request: [inputs(request, 0.07)], silent)
 
 
 def _accuracy(**changes: Any) -> Subject:
     answer = AccuracyAnswer.model_validate({**_MEASURED, **changes})
     request = AccuracyRequest.model_validate({"machine": _SMALL})
-    return Subject(answer, lambda value: ladders(request, value))
+    return Subject(answer, lambda answer: ladders(request, answer))
 
 
 def accuracy(*rungs: dict[str, Any]) -> AccuracyAnswer:
@@ -197,7 +197,7 @@ def accuracy(*rungs: dict[str, Any]) -> AccuracyAnswer:
 
 
 def _counts() -> Subject:
-    return Subject(CountFront.model_validate(_COUNTS), lambda value: [Chapter("Numbers", (count_table(value),))])
+    return Subject(CountFront.model_validate(_COUNTS), lambda front: [Chapter("Numbers", (count_table(front),))])
 
 
 _MADE: dict[str, Callable[[], Subject]] = {
@@ -240,7 +240,7 @@ def subject_of(name: str) -> Subject:
 def written(names: Iterable[str] = NAMES) -> Iterable[str]:
     """The table: of every subject those of its leaves that have places, with these."""
     for name in names:
-        yield from (f"{name}: {entry}" for entry in subject_of(name).written() if not entry.endswith(f" {NOWHERE}\n"))
+        yield from (f"{name}: {line}" for line in subject_of(name).written() if not line.endswith(f" {NOWHERE}\n"))
 
 
 if __name__ == "__main__":

@@ -70,23 +70,23 @@ def test_orders_are_settled_by_force_and_moment_of_the_first(
 
 
 @pytest.mark.parametrize(
-    ("value", "scale", "gap", "text"),
+    ("figure", "scale", "gap", "text"),
     [(None, 1.0, 0.0, "–"), (0.9e-6, 1.0, 0.0, "0"), (-0.9e-6, -1.0, 0.0, "0"), (1.1e-6, 1.0, 0.0, "1.1e-06"),
      (0.02, 1.0, 0.031, "< 0.04"), (0.031, 1.0, 0.031, "0.031"), (-0.02, 1.0, 0.031, "-0.02"),
      (0.02, 1.0, 0.03, "< 0.03")],
 )  # fmt: skip
 def test_what_rounding_leaves_is_nothing_and_what_a_gap_outweighs_is_below_it(
-    value: float | None, scale: float, gap: float, text: str
+    figure: float | None, scale: float, gap: float, text: str
 ) -> None:
-    cell = figure_beside(value, scale, gap)
+    cell = figure_beside(figure, scale, gap)
     assert (cell.text if isinstance(cell, Number) else cell) == text
 
 
 @pytest.mark.parametrize(
-    ("value", "text"), [(None, "–"), (12.34567, "12.3457"), (359.99999, "0"), (-359.99999, "0"), (359.9999, "0")]
+    ("angle_deg", "text"), [(None, "–"), (12.34567, "12.3457"), (359.99999, "0"), (-359.99999, "0"), (359.9999, "0")]
 )
-def test_angles_are_told_to_a_ten_thousandth(value: float | None, text: str) -> None:
-    cell = angle(value)
+def test_angles_are_told_to_a_ten_thousandth(angle_deg: float | None, text: str) -> None:
+    cell = angle(angle_deg)
     assert (cell.text if isinstance(cell, Number) else cell) == text
 
 

@@ -230,17 +230,17 @@ def test_a_terminal_tells_every_30_degrees(turns: int) -> None:
 
 
 @pytest.mark.parametrize(
-    ("value", "text"),
+    ("angle_deg", "text"),
     [
         (4.4e-10, "0"), (-4.4e-10, "0"), (360.0 - 1e-9, "0"), (360.0, "0"), (-360.0, "0"), (123.45678, "123.457"),
         (0.00016, "0.0002"), (-90.0, "-90"), (359.9994, "359.999"), (359.99951, "0"),
     ],
 )  # fmt: skip
-def test_an_angle_of_a_whole_turn_is_printed_as_none(value: float, text: str) -> None:
-    phase = angle(value)
+def test_an_angle_of_a_whole_turn_is_printed_as_none(angle_deg: float, text: str) -> None:
+    phase = angle(angle_deg)
     assert isinstance(phase, Number)
     # to all its digits where it is computed with
-    assert (phase.text, phase.value) == (text, value)
+    assert (phase.text, phase.value) == (text, angle_deg)
 
 
 def test_of_inertia_alone_nothing_is_filed_that_is_zero(composer: Make) -> None:

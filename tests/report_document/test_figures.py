@@ -30,9 +30,9 @@ def _grading(grade: float) -> Any:
 
 
 def test_a_grade_is_that_with_counterweights_or_without() -> None:
-    value: Any = SimpleNamespace(balance_quality=SimpleNamespace(grade_mm_s=6.3))
+    machine: Any = SimpleNamespace(balance_quality=SimpleNamespace(grade_mm_s=6.3))
     answer: Any = SimpleNamespace(balance_quality=SimpleNamespace(before=_grading(40.0), after=_grading(5.0)))
-    (chapter,) = balance_quality(value, answer)
+    (chapter,) = balance_quality(machine, answer)
     words, paragraph = chapter.blocks
     assert isinstance(words, Paragraph)
     assert "Reached: without counterweights G 40 mm/s; with counterweights G 5 mm/s." in words.text
@@ -56,7 +56,9 @@ def test_a_tolerance_alone_is_written_as_one() -> None:
 
 def test_nothing_is_not_below_a_gap() -> None:
     texts = [
-        cell.text for cell in (figure_beside(value, 0.0, 0.5) for value in (0.1, 0.0, 0.5)) if isinstance(cell, Number)
+        cell.text
+        for cell in (figure_beside(figure, 0.0, 0.5) for figure in (0.1, 0.0, 0.5))
+        if isinstance(cell, Number)
     ]
     assert [text.startswith("<") for text in texts] == [True, False, False]
 

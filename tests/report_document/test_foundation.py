@@ -48,7 +48,9 @@ def test_the_chapter_holds_every_figure_and_no_row_of_zeros() -> None:
     first = [cell.value for cell in forces.rows[0] if isinstance(cell, Number)]
     force_xes = [load.force_x for load in (foundations[0].before, foundations[0].after, built)]
     assert first == [
-        value for force_x in force_xes for value in (force_x.amplitude_N, force_x.amplitude_N / 1e3, force_x.phase_deg)
+        figure
+        for force_x in force_xes
+        for figure in (force_x.amplitude_N, force_x.amplitude_N / 1e3, force_x.phase_deg)
     ]
     assert couples.rows[0][1] == "horizontal"
     second = [cell.value for cell in couples.rows[0] if isinstance(cell, Number)]

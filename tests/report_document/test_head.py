@@ -49,8 +49,8 @@ def test_the_head_says_what_the_request_gives() -> None:
     assert document.notes == ("For approval.", "Supersedes revision A.")
     page = html(document).decode()
     first, *_ = pages(content)
-    for value in HEAD.values():
-        for line in filter(None, value.splitlines()):
+    for text in HEAD.values():
+        for line in filter(None, text.splitlines()):
             assert line in page
             assert line.replace(" ", "") in first
 

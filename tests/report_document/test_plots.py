@@ -104,8 +104,8 @@ def near(entries: list[Point], rows: list[Point]) -> bool:
     assert len(entries) == len(rows)
     size = [max(abs(row[side]) for row in rows) or 1.0 for side in (0, 1)]
     return all(
-        abs(entry[side] - second_row[side]) < _ROUNDED * size[side]
-        for entry, second_row in zip(entries, rows, strict=True)
+        abs(point[side] - second_row[side]) < _ROUNDED * size[side]
+        for point, second_row in zip(entries, rows, strict=True)
         for side in (0, 1)
     )
 
@@ -131,12 +131,12 @@ def lines(svg: str, stroke: str) -> list[list[Point]]:
 def test_lines_of_a_chart_have_their_values(factor: float) -> None:
     places, first, second = [-0.4, 0.1, 0.3, 0.9], [3.0, -2.0, 7.0, 1.0], [1.0, 4.0, -5.0, 2.0]
     of_lines = [
-        charts.Line(name, [factor * 40.0 * value for value in line]) for name, line in (("a", first), ("b", second))
+        charts.Line(name, [factor * 40.0 * height for height in line]) for name, line in (("a", first), ("b", second))
     ]
     svg = charts.chart("load", "N", "z, m", places, of_lines).svg()
     for line, stroke in ((first, SERIES[0]), (second, SERIES[1])):
         entries = values(svg, lines(svg, stroke)[0])
-        assert near(entries, [(place, 40.0 * value) for place, value in zip(places, line, strict=True)])
+        assert near(entries, [(place, 40.0 * height) for place, height in zip(places, line, strict=True)])
     assert any(shape.text == ("load, kN" if factor > 1 else "load, N") for shape in shapes(svg))
     assert on_paper(svg)
 
@@ -172,10 +172,10 @@ def test_a_circle_around_a_curve_is_where_it_is_and_on_the_paper(turn: int, fact
 def test_a_hodograph_has_its_peak_in_the_units_of_its_axes() -> None:
     svg = charts.hodograph("force", "N", [charts.after("with", 30.0, 10.0, 25.0)]).svg()
     entries = values(svg, lines(svg, AFTER)[0])
-    farthest = max(entries, key=lambda entry: math.hypot(*entry))
+    farthest = max(entries, key=lambda point: math.hypot(*point))
     assert math.hypot(*farthest) == pytest.approx(30.0, rel=_ROUNDED)
     assert math.degrees(math.atan2(farthest[1], farthest[0])) % 180 == pytest.approx(25.0, abs=1.1)
-    assert min(math.hypot(*entry) for entry in entries) == pytest.approx(10.0, rel=_ROUNDED)
+    assert min(math.hypot(*point) for point in entries) == pytest.approx(10.0, rel=_ROUNDED)
     x, y = axes(svg)
     assert x.step == pytest.approx(-y.step, rel=1e-9)
     assert on_paper(svg)

@@ -38,11 +38,11 @@ def test_marks_of_an_axis_are_round_and_around_the_values(low: float, high: floa
 
 
 @pytest.mark.parametrize(
-    ("value", "digit"), [(0.00123, 0.002), (0.002, 0.002), (95.0, 100.0), (1.0, 1.0), (31.0, 40.0)]
+    ("figure", "digit"), [(0.00123, 0.002), (0.002, 0.002), (95.0, 100.0), (1.0, 1.0), (31.0, 40.0)]
 )
-def test_one_digit_is_never_smaller(value: float, digit: float) -> None:
+def test_one_digit_is_never_smaller(figure: float, digit: float) -> None:
     """Analytic."""
-    assert _upwards(value) == pytest.approx(digit, rel=1e-12)
+    assert _upwards(figure) == pytest.approx(digit, rel=1e-12)
 
 
 def test_what_is_reached_stays_until_something_better_is() -> None:

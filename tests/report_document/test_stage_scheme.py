@@ -38,8 +38,8 @@ def test_every_stage_is_drawn_with_what_acts_and_what_is_left() -> None:
     assert [texts(cell)[0] for cell in drawn] == ["I", "II", "III", "IV", "V", "VI", "VII", "VIII"]
     for cell, stage in zip(drawn[:6], stages, strict=False):
         words = " ".join(texts(cell))
-        for entry in (*stage.acting, *(stage.left or ())):
-            assert entry.motion == "none" or f"{entry.peak:.6g} {entry.unit}" in words
+        for part in (*stage.acting, *(stage.left or ())):
+            assert part.motion == "none" or f"{part.peak:.6g} {part.unit}" in words
     # published of opposed rows: what is left of first-order forces turns against the shaft, of second order it is fixed
     assert "against the shaft" in " ".join(texts(drawn[2]))
     assert "one direction" in " ".join(texts(drawn[5]))

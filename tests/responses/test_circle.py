@@ -80,7 +80,7 @@ def test_points_that_all_but_coincide_are_held_by_no_more_than_their_circle(seed
         area = abs(mp.im(mp.conj(second - first) * (third - first))) / 2
         acute = squares[0] + squares[1] > squares[2]
         exact = mp.fprod(sides) / (4 * area) if acute and area > 0 else max(sides) / 2
-        value = mp.mpf(smallest_circle(points).radius)
+        radius = mp.mpf(smallest_circle(points).radius)
         size = float(abs(offset)) + 1.0
-        assert value <= exact + 4e-16 * size
-        assert value >= exact * (1 - mp.mpf("1e-12"))
+        assert radius <= exact + 4e-16 * size
+        assert radius >= exact * (1 - mp.mpf("1e-12"))

@@ -58,14 +58,14 @@ def test_no_corner_is_worse_and_one_is_as_bad(name: str, gas: bool, shaft: str, 
     count = responses[0].influence.size
     u = size * (rng.normal(size=count) + 1j * rng.normal(size=count))
     worst = peaks_astray(responses, [share] * len(responses), u, np.full(len(responses), 1e-6))
-    for response, angle, value, lower, upper in zip(responses, *worst, strict=True):
+    for response, angle, peak, lower, upper in zip(responses, *worst, strict=True):
         at_steps = np.abs(_corners(response, _STEPS, share) + response.contribution(u, _STEPS))
         assert np.max(at_steps) <= upper
         assert lower <= upper <= lower * (1.0 + 1e-6) + 1e-12
         beside = np.array([angle - 1e-9, angle, angle + 1e-9])  # at a jump one of its limits
-        apart = np.min(np.abs(_corners(response, beside, share) - value))
+        apart = np.min(np.abs(_corners(response, beside, share) - peak))
         assert apart <= 1e-6 * upper
-        assert abs(value + np.ravel(response.contribution(u, beside[1:2]))[0]) == pytest.approx(
+        assert abs(peak + np.ravel(response.contribution(u, beside[1:2]))[0]) == pytest.approx(
             lower, rel=1e-9, abs=1e-12
         )
 
@@ -117,25 +117,25 @@ def test_a_bracket_that_is_broken_off_is_as_wide_as_it_is_known(most: int, monke
     share, width = [0.5] * len(responses), np.full(len(responses), 1e-11)
     fine = peaks_astray(responses, share, u, width)
     monkeypatch.setattr(scattered, "_MOST_NUMBERS", most)
-    value = peaks_astray(responses, share, u, width)
-    assert np.all(value.lower <= fine.upper)
-    assert np.all(value.upper >= fine.lower)
-    assert np.all(value.lower <= value.upper)
-    assert np.max(value.upper / value.lower) > 1.0 + 1e-10
+    worst = peaks_astray(responses, share, u, width)
+    assert np.all(worst.lower <= fine.upper)
+    assert np.all(worst.upper >= fine.lower)
+    assert np.all(worst.lower <= worst.upper)
+    assert np.max(worst.upper / worst.lower) > 1.0 + 1e-10
     if most == 20_000:
         # the first step is done
-        assert np.max(value.upper / value.lower) < 1.011
+        assert np.max(worst.upper / worst.lower) < 1.011
 
 
 def test_a_peak_that_may_be_anything_is_told_by_its_pieces() -> None:
     """Analytic: a bracket as wide as asked, without a cell that is looked at."""
     responses = _responses("vee", True, "continuous")
     u = np.zeros(responses[0].influence.size, dtype=complex)
-    value = peaks_astray(responses, [1e-3] * len(responses), u, np.full(len(responses), 0.25))
+    worst = peaks_astray(responses, [1e-3] * len(responses), u, np.full(len(responses), 0.25))
     fine = peaks_astray(responses, [1e-3] * len(responses), u, np.full(len(responses), 1e-9))
-    assert np.all(value.lower <= fine.upper)
-    assert np.all(value.upper >= fine.lower)
-    assert np.all(value.upper <= 1.25 * value.lower + 1e-12)
+    assert np.all(worst.lower <= fine.upper)
+    assert np.all(worst.upper >= fine.lower)
+    assert np.all(worst.upper <= 1.25 * worst.lower + 1e-12)
 
 
 def test_masses_that_do_not_scatter_leave_the_peak_as_it_is() -> None:

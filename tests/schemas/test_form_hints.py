@@ -69,8 +69,8 @@ def test_one_field_of_every_kind() -> None:
         ["number", "string"],
     )
     assert [entry.get("type") for entry in properties["load_kg"]["anyOf"]] == [["number", "string"], None, "null"]
-    assert [entry.get("title") for entry in properties["load_kg"]["anyOf"]] == ["One value", None, "None"]
-    assert [entry.get("type") for entry in properties["table"]["anyOf"]] == [None, "null"]
+    assert [alternative.get("title") for alternative in properties["load_kg"]["anyOf"]] == ["One value", None, "None"]
+    assert [alternative.get("type") for alternative in properties["table"]["anyOf"]] == [None, "null"]
     units = {name: attribute.get("x-unit") for name, attribute in properties.items()}
     assert units == {
         "bore_m": "m", "stroke_m": "m", "radii_m": "m", "bracket_N": "N", "load_kg": "kg", "table": None, "names": "kg",

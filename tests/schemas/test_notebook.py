@@ -40,10 +40,10 @@ class Curved(Answer):
 
 
 def test_curves_are_shown_by_their_length() -> None:
-    value = Curved(version="1", force_N=range(360), empty=())
-    assert repr(value) == "Curved(version='1', force_N=[360])"
-    assert "<th>force_N</th><td>360 numbers</td>" in value._repr_html_()
-    assert "empty" not in value._repr_html_()
+    curved = Curved(version="1", force_N=range(360), empty=())
+    assert repr(curved) == "Curved(version='1', force_N=[360])"
+    assert "<th>force_N</th><td>360 numbers</td>" in curved._repr_html_()
+    assert "empty" not in curved._repr_html_()
 
 
 def test_a_line_holds_figures_and_no_series() -> None:

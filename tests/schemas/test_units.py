@@ -115,11 +115,11 @@ def test_hostile_strings_are_refused(text: str) -> None:
 @given(st.text(max_size=60), st.sampled_from(sorted(UNITS)))
 def test_any_text_is_read_or_refused(text: str, field: str) -> None:
     try:
-        value = parse_quantity(text, field)
+        quantity = parse_quantity(text, field)
     except ValueError as error:
         message = str(error)
     else:
-        message = "must be" if isinstance(value, float) else ""
+        message = "must be" if isinstance(quantity, float) else ""
     assert message.startswith(("must be", "unit must be"))
 
 

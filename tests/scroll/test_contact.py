@@ -72,8 +72,8 @@ def test_primal_and_dual_by_a_general_solver_independent(seed: int, count: int) 
     scale = np.max(np.abs(contact.load[0]))
     assert primal.value == pytest.approx(dual.value, abs=1e-5 * abs(torque) * 1e-3)
     np.testing.assert_allclose(contact.load[0], load.value, rtol=0, atol=2e-4 * scale)
-    value = 0.5 * np.sum(by_hand(case, contact) ** 2 / case["stiffness"]) - case["torque"][0] * contact.rotation[0]
-    assert value * 1e3 <= primal.value + 1e-7 * abs(primal.value) + 1e-9
+    energy = 0.5 * np.sum(by_hand(case, contact) ** 2 / case["stiffness"]) - case["torque"][0] * contact.rotation[0]
+    assert energy * 1e3 <= primal.value + 1e-7 * abs(primal.value) + 1e-9
 
 
 def test_the_certificate_sees_a_wrong_answer_analytic() -> None:

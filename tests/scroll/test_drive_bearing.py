@@ -162,14 +162,14 @@ def test_the_keys_hold_the_ring_analytic(seed: int) -> None:
     rng = np.random.default_rng(seed)
     orbit, reach, mass, axis, omega = rng.uniform(0.1, 2.0, (5, 4))
     angle, torque = rng.uniform(0.0, 6.0, (4, 9)), rng.uniform(-5.0, 5.0, (4, 9))
-    value = keys(Oldham(orbit, reach, mass, axis, omega), torque, angle)
+    forces = keys(Oldham(orbit, reach, mass, axis, omega), torque, angle)
     across = (axis[:, None] - angle, orbit[:, None] * omega[:, None])
     acceleration = -across[1] * omega[:, None] * np.cos(across[0])
-    np.testing.assert_allclose(np.sum(value.scroll, axis=-1), mass[:, None] * acceleration, atol=1e-12)
-    couple = reach[:, None] * (value.scroll[..., 0] - value.scroll[..., 1])
+    np.testing.assert_allclose(np.sum(forces.scroll, axis=-1), mass[:, None] * acceleration, atol=1e-12)
+    couple = reach[:, None] * (forces.scroll[..., 0] - forces.scroll[..., 1])
     np.testing.assert_allclose(couple, torque, atol=1e-12)
-    np.testing.assert_allclose(2.0 * reach[:, None] * value.frame, torque, atol=1e-12)
-    np.testing.assert_allclose(np.hypot(value.frame_speed, value.scroll_speed), across[1] + 0 * angle, atol=1e-12)
+    np.testing.assert_allclose(2.0 * reach[:, None] * forces.frame, torque, atol=1e-12)
+    np.testing.assert_allclose(np.hypot(forces.frame_speed, forces.scroll_speed), across[1] + 0 * angle, atol=1e-12)
 
 
 @pytest.mark.parametrize(

@@ -58,8 +58,8 @@ def test_an_error_strains_pins_at_a_dead_point_without_torque_analytic(along: fl
     for pin in answer.pins:
         assert (pin.peak_N, pin.peak_angle_deg) == pytest.approx((expected, along), rel=1e-12)
     if along % 1.0 == 0.0:
-        result = loads(answer)[int(along)]
-        np.testing.assert_allclose(result, [-expected, expected], rtol=1e-12)
+        load = loads(answer)[int(along)]
+        np.testing.assert_allclose(load, [-expected, expected], rtol=1e-12)
         assert answer.contact is not None
         assert answer.contact.scroll_rotation_deg[int(along)] == 0.0
     assert answer.equilibrium.holds

@@ -74,4 +74,4 @@ def test_the_coding_of_an_answer(accepted: list[str], coding: str | None) -> Non
 )
 def test_the_format_of_rows(accept: list[str], name: str | None) -> None:
     request = Request({"type": "http", "headers": [(b"accept", text.encode()) for text in accept]})
-    assert negotiate(request, {entry.media_type.split(";")[0]: key for key, entry in FORMATS.items()}) == name
+    assert negotiate(request, {form.media_type.split(";")[0]: key for key, form in FORMATS.items()}) == name

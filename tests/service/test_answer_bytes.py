@@ -126,7 +126,7 @@ def test_fields_of_answers_with_curves_go_out_as_they_stand(model: type[Any]) ->
         for field in part.model_fields.values():
             assert field.serialization_alias is None
             assert not field.exclude
-            assert not any(isinstance(entry, PlainSerializer | WrapSerializer) for entry in field.metadata)
+            assert not any(isinstance(metadata, PlainSerializer | WrapSerializer) for metadata in field.metadata)
 
 
 @pytest.mark.parametrize("model", WITH_CURVES)

@@ -44,7 +44,7 @@ def performed(computation: Computation, body: dict[str, Any], coding: Coding | N
 @pytest.mark.parametrize("coding", ["gzip", "zstd"])
 def test_a_worker_compresses_what_is_worth_it(coding: Coding, body: dict[str, Any]) -> None:
     optimize = COMPUTATIONS["optimize"]
-    plain, packed = (performed(optimize, body, value) for value in (None, coding))
+    plain, packed = (performed(optimize, body, encoding) for encoding in (None, coding))
     assert (plain.coding, packed.coding) == (None, coding)
     assert packed.size == len(packed.content) < plain.size
     answer = json.loads(decoded(packed.content, coding))

@@ -91,7 +91,11 @@ def test_every_answer_and_the_state_of_a_sweep_say_which_version_answered() -> N
     """Independent: the version of the project's file."""
     project = tomllib.loads((Path(__file__).parents[2] / "pyproject.toml").read_text())["project"]
     assert package_version() == project["version"]
-    computed = [entry.answer_model for entry in COMPUTATIONS.values() if entry.answer is not None and entry is not TOY]
+    computed = [
+        computation.answer_model
+        for computation in COMPUTATIONS.values()
+        if computation.answer is not None and computation is not TOY
+    ]
     for model in (*computed, SweepState, SweepEstimate):
         assert issubclass(model, Answer), model
         assert model.model_construct().version == package_version()

@@ -80,7 +80,7 @@ def test_every_example_can_be_posted(client: TestClient, post: Post, name: str) 
 
 def test_examples(client: TestClient) -> None:
     listed = client.get("/v1/examples").json()["examples"]
-    assert [entry["name"] for entry in listed] == sorted(names())
+    assert [example["name"] for example in listed] == sorted(names())
     for entry in listed:
         assert set(entry) == {"name", "title", "description", "gas", "links"}
         assert isinstance(entry["gas"], bool)

@@ -70,7 +70,7 @@ PUBLISHED = (
     Arrangement("W 60 deg", [(0, (150.0, 90.0, 30.0))], 1.5, 0, 1.5, 0),
     Arrangement("in-line three", [(0, _UP), (120, _UP), (240, _UP)], 0, _ROOT(3), 0, _ROOT(3), kind="analytic"),
     Arrangement("in-line four", [(0, _UP), (180, _UP), (180, _UP), (0, _UP)], 0, 0, 4, 0, kind="analytic"),
-    Arrangement("in-line five, 1-2-4-5-3", [(value, _UP) for value in _FIVE], 0, _couple(1), 0, _couple(2),
+    Arrangement("in-line five, 1-2-4-5-3", [(angle, _UP) for angle in _FIVE], 0, _couple(1), 0, _couple(2),
                 kind="analytic"),
     Arrangement("in-line six", [(a, _UP) for a in (0, 120, 240, 240, 120, 0)], 0, 0, 0, 0, kind="analytic"),
     Arrangement("boxer four", [(0, (0,)), (180, (180,)), (180, (0,)), (0, (180,))], 0, 0, 0, 2, kind="analytic"),

@@ -60,7 +60,7 @@ def _machine(name: str) -> Iterator[Comparison]:
 
 def _against(name: str, answer: Any, turn: Revolution) -> Iterator[Comparison]:
     for order in (1, 2):
-        (ours,) = (entry for entry in answer.orders.after if entry.order == order)
+        (ours,) = (order_peaks for order_peaks in answer.orders.after if order_peaks.order == order)
         force, moment = _peak(turn.force, order), _peak(turn.moment, order)
         allowed = _METHOD * float(np.max(np.abs(turn.force))), _METHOD * float(np.max(np.abs(turn.moment)))
         yield _line(name, f"force of order {order}", force, ours.force.peak_N, allowed[0], "N")

@@ -1,7 +1,7 @@
 """A reciprocating machine as rigid bodies in space, integrated in time by EXUDYN: no formula of ours.
 
 Shaft, rods and crossheads are bodies with six coordinates each. The shaft lies in two bearings, which hold its centre
-line without moments; a rod turns on its crank pin, holds its crosshead at the other end, and every crosshead slides in
+line without moments. A rod turns on its crank pin, holds its crosshead at the other end, and every crosshead slides in
 the frame. The polar inertia of the shaft is so large that its speed is constant to a part in 1e7. What the joints of
 the frame carry is what the machine does to it.
 """

@@ -53,8 +53,11 @@ _NAME = "rotor of Foiles, Allaire and Gunter"
 
 def _solution() -> ConeSolution:
     rows = [
-        Row(str(k), (weighted_peak(Response(str(k), "N", Phasors(np.asarray(reading), np.asarray(0j)), value), 1.0),))
-        for k, (reading, value) in enumerate(zip(_vectors(_READINGS), _influence(), strict=True))
+        Row(
+            str(k),
+            (weighted_peak(Response(str(k), "N", Phasors(np.asarray(reading), np.asarray(0j)), influence), 1.0),),
+        )
+        for k, (reading, influence) in enumerate(zip(_vectors(_READINGS), _influence(), strict=True))
     ]
     free, ones = np.ones(4, bool), np.ones(4)
     limits = Limits(ones, _MOST * ones, free, ones + 0j, 0.0 * ones, ones, np.asarray(np.inf))

@@ -1,6 +1,6 @@
 """Answers on their way to a test, through the independent checker.
 
-Of every file of tests the first is, and every twentieth: the checker takes four times as long as an ordinary answer,
+Of every file of tests the first is, and every twentieth. The checker takes four times as long as an ordinary answer,
 and a hundred times where its cylinders have a measured pressure. Where the variable CHECKED_ANSWERS is `every`, as at
 night and under mutants, all of them are.
 """

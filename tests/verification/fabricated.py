@@ -1,7 +1,7 @@
 """``python -m tests.verification.fabricated``: answers that somebody made up, whose figures agree with one another.
 
-Doing nothing is called optimal, ceilings that can be kept are called out of reach, a counterweight is there twice, a
-proof is left out, the answer is that to another request. Prints kind | fabricated | broken | refused | not covered |
+Doing nothing is called optimal, ceilings that can be kept are called out of reach, a counterweight is there twice. A
+proof is left out, or the answer is that to another request. Prints kind | fabricated | broken | refused | not covered |
 held. Exit code 1 where one of them is held.
 """
 
@@ -36,18 +36,18 @@ def idle(answer: Answer) -> Answer:
     variant |= {"total_mass_kg": 0.0, "shadow_prices": [], "active_limits": [], "sensitivity": None}
     residual = variant["residual"]
     residual["after"], residual["orders"]["after"] = residual["before"], residual["orders"]["before"]
-    variant["balance_rate"] = [{**value, "rate": 0.0, "sideways": 0.0} for value in variant["balance_rate"]]
+    variant["balance_rate"] = [{**rate, "rate": 0.0, "sideways": 0.0} for rate in variant["balance_rate"]]
     return variant
 
 
 def out_of_reach(answer: Answer) -> Answer:
     """Nothing keeps the ceilings, by the proof of another request."""
-    _, value = pair("infeasible")
+    _, proven = pair("infeasible")
     variant = copy.deepcopy(answer)
     variant |= {"status": "infeasible", "certificate": None, "counterweights": [], "total_mass_kg": None}
     variant |= {"shadow_prices": [], "active_limits": [], "balance_shafts": [], "sensitivity": None, "worst_case": None}
     variant["residual"]["after"] = variant["residual"]["orders"]["after"] = None
-    variant["infeasibility"] = {**value["infeasibility"], "closest": None}
+    variant["infeasibility"] = {**proven["infeasibility"], "closest": None}
     return variant
 
 
@@ -150,8 +150,8 @@ def fabricated(name: str) -> Iterator[tuple[str, Any, Any]]:
         several = len(answer["counterweights"]) > 1
         if (fitted or way not in ("idle", "turned", "heavier")) and (several or way != "exchanged"):
             yield way, request, change(answer)
-    _, value = pair(KINDS[KINDS.index(name) - 1])
-    yield "another", request, value
+    _, other = pair(KINDS[KINDS.index(name) - 1])
+    yield "another", request, other
 
 
 def verdict(request: Any, answer: Any) -> str:

@@ -38,14 +38,14 @@ def numbers(answer: Any, path: Path = ()) -> Iterator[Path]:
 
 def falsified(answer: Any, path: Path, number: Any) -> Iterator[Falsified]:
     """Every way to falsify one number; ``other`` is the one that it is swapped with."""
-    value = at(answer, path)
-    ways = {"x1.001": value * 1.001, "x0.999": value * 0.999, "x1000": value * 1000.0, "0": 0.0, "sign": -value}
+    leaf = at(answer, path)
+    ways = {"x1.001": leaf * 1.001, "x0.999": leaf * 0.999, "x1000": leaf * 1000.0, "0": 0.0, "sign": -leaf}
     for way, wrong in ways.items():
         # 180 degrees are -180 degrees
-        if wrong != value and not (way == "sign" and str(path[-1]) == "phase_deg" and abs(value) == 180.0):
+        if wrong != leaf and not (way == "sign" and str(path[-1]) == "phase_deg" and abs(leaf) == 180.0):
             yield Falsified(path, way, replaced(answer, path, wrong), answer)
-    if number is not None and at(answer, number) != value:
-        swapped = replaced(replaced(answer, path, at(answer, number)), number, value)
+    if number is not None and at(answer, number) != leaf:
+        swapped = replaced(replaced(answer, path, at(answer, number)), number, leaf)
         yield Falsified(path, "swap", swapped, answer)
     yield Falsified(path, "deletion", deleted(answer, path), answer)
 
@@ -119,14 +119,14 @@ def _dust(answer: Any, path: Path) -> bool:
         for number in numbers(answer["residual"], ("residual",))
     ]
     largest = max(arm * abs(at(answer, texts)) for texts, arm in figures)
-    value = at(answer, path)
+    leaf = at(answer, path)
     if str(path[-1]).endswith("_deg"):
         # along what is smallest of it: one of both phasors, or the phasor itself
         lengths = ("co_", "counter_", "magnitude", "amplitude")
-        sizes = [abs(value) for name, value in here.items() if name.startswith(lengths)]
+        sizes = [abs(length) for name, length in here.items() if name.startswith(lengths)]
         return min(sizes) <= _DUST * largest
-    values = [value for name, value in here.items() if name.endswith(kind) and name != path[-1]]
-    return abs(value) <= _DUST * largest or any(abs(value - number) <= _DUST * largest for number in values)
+    values = [number for name, number in here.items() if name.endswith(kind) and name != path[-1]]
+    return abs(leaf) <= _DUST * largest or any(abs(leaf - number) <= _DUST * largest for number in values)
 
 
 def _size(here: Any, path: Path) -> float:

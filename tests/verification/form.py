@@ -39,9 +39,9 @@ def _models(annotation: Any, path: str) -> list[tuple[str, type[BaseModel]]]:
     if origin is Annotated:
         return _models(inner[0], path)
     if origin in (Union, UnionType):
-        return [model for value in inner for model in _models(value, path)]
+        return [model for part in inner for model in _models(part, path)]
     if origin is tuple or origin is list:
-        return [model for value in inner for model in _models(value, f"{path}/*")]
+        return [model for part in inner for model in _models(part, f"{path}/*")]
     # of a map the names are free
     return []
 

@@ -54,13 +54,11 @@ class Question(NamedTuple):
 
 KINDS = {
     "optimize": Kind(
-        lambda value, _: value, lambda value: json.loads(optimize(check(OptimizeRequest, value)).model_dump_json())
+        lambda body, _: body, lambda body: json.loads(optimize(check(OptimizeRequest, body)).model_dump_json())
     ),
     "sweep": Kind(sweep_of, sweep_rows),
     "front": Kind(front_of, front_answer),
-    "match": Kind(
-        lambda value, _: value, lambda value: json.loads(match(check(MatchRequest, value)).model_dump_json())
-    ),
+    "match": Kind(lambda body, _: body, lambda body: json.loads(match(check(MatchRequest, body)).model_dump_json())),
 }
 #: in turn: each of a random machine, and sweeps and fronts of a pair of features
 _STUDIES = (("sweep", True), ("sweep", False), ("front", True), ("sweep", False), ("match", True), ("front", False))

@@ -62,7 +62,7 @@ def judgement(request: Any, answer: Any) -> dict[str, Any]:
     def noting(claims: Any, place: Any) -> Any:
         every = list(claims)
         for claim, where, room, size in every:
-            lines.append([claim, "/".join(map(str, where.path)), *(_rounded(value) for value in (room, size))])
+            lines.append([claim, "/".join(map(str, where.path)), *(_rounded(bound) for bound in (room, size))])
         return judged(iter(every), place)
 
     with pytest.MonkeyPatch.context() as patch:

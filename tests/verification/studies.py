@@ -1,7 +1,8 @@
 """Sweeps and fronts by chance, through what is otherwise asked of one machine.
 
-A sweep varies any numeric fields of its base, also those that are null there: lists with texts, null and what no field
-takes, ranges, Latin hypercubes, orders of the cranks. Most ask for the multipliers that prove rows and points.
+A sweep varies any numeric fields of its base, also those that are null there. Values are lists with texts, null and
+what no field takes, ranges, Latin hypercubes, orders of the cranks. Most ask for the multipliers that prove rows and
+points.
 """
 
 import json

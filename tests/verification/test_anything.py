@@ -70,5 +70,5 @@ def test_what_once_raised_is_judged(name: str, path: tuple[str | int, ...], valu
 def test_counterweights_of_another_machine_are_broken() -> None:
     """Groups of webs that the answer does not have once raised."""
     request, _ = pair("groups")
-    _, value = pair("scroll-oldham")
-    judged(request, value)
+    _, answer = pair("scroll-oldham")
+    judged(request, answer)

@@ -77,7 +77,7 @@ def test_products_are_those_of_all_corners(first: Any, second: Any) -> None:
 @given(rectangles(), st.floats(0, 360), st.floats(1e-9, 90))
 def test_what_a_sector_takes_off_is_enclosed(pull: Any, centre: float, half: float) -> None:
     """Independent: doubles, of every corner in its own direction where that is in the sector, and at both edges."""
-    low, high = map(float, ends(part("program").support(pull, (centre, half))))
+    low, high = map(float, ends(part("worth").support(pull, (centre, half))))
     for x, y in product(ends(pull), sides(pull)):
         length, angle = math.hypot(x, y), math.degrees(math.atan2(y, x))
         beside = abs((angle - centre + 180) % 360 - 180)
@@ -101,11 +101,11 @@ def test_real_products_and_quotients(first: Any, second: Any) -> None:
 
 
 @given(rectangles())
-def test_the_length_of_a_rectangle_is_that_of_its_nearest_and_farthest_corners(value: Any) -> None:
-    (a, b), (c, d) = ends(value), sides(value)
+def test_the_length_of_a_rectangle_is_that_of_its_nearest_and_farthest_corners(box: Any) -> None:
+    (a, b), (c, d) = ends(box), sides(box)
     nearest = [Fraction(0) if low <= 0 <= high else min(abs(low), abs(high)) for low, high in ((a, b), (c, d))]
     farthest = [max(abs(low), abs(high)) for low, high in ((a, b), (c, d))]
-    low, high = ends(abs(value))
+    low, high = ends(abs(box))
     square = [sum(number * number for number in some) for some in (nearest, farthest)]
     assert low * low <= square[0] < (low + 2 * _UNIT) ** 2 or square[0] == 0 == low
     assert high * high >= square[1]
@@ -124,19 +124,19 @@ def test_parts_and_middles(subject: Any) -> None:
 
 
 @given(st.floats(allow_nan=False, allow_infinity=False))
-def test_doubles_are_exact(value: float) -> None:
-    assert ends(part("numbers").real(value)) == (Fraction(value), Fraction(value))
+def test_doubles_are_exact(double: float) -> None:
+    assert ends(part("numbers").real(double)) == (Fraction(double), Fraction(double))
 
 
 def test_fractions_are_enclosed_and_what_is_not_finite_is_no_number() -> None:
     numbers = part("numbers")
-    for value in (Fraction(1, 3), Fraction(-2, 7)):
-        low, high = ends(numbers.real(value))
-        assert low < value < high
+    for number in (Fraction(1, 3), Fraction(-2, 7)):
+        low, high = ends(numbers.real(number))
+        assert low < number < high
         assert high - low == _UNIT
-    for value in (math.nan, math.inf, -math.inf):
+    for number in (math.nan, math.inf, -math.inf):
         with pytest.raises(OverflowError):
-            numbers.real(value)
+            numbers.real(number)
     assert float(numbers.Number(0, 1 << 2200)) == 1.7976931348623157e308
     assert float(numbers.Number(0, -1 << 2200)) == -1.7976931348623157e308
     least = numbers.largest(numbers.Number(1, 9), numbers.Number(2, 3))
@@ -199,7 +199,7 @@ def test_what_is_no_quantity_is_unreadable(text: str) -> None:
 
 
 @pytest.mark.parametrize(
-    ("value", "least", "fits"),
+    ("number", "least", "fits"),
     [
         (3.0, 3.0, True),
         (2.0, 3.0, False),
@@ -209,10 +209,10 @@ def test_what_is_no_quantity_is_unreadable(text: str) -> None:
         (10**400, 0.0, False),
     ],
 )
-def test_numbers_are_finite_and_not_below_their_least(value: Any, least: float, fits: bool) -> None:
-    place = part("numbers").Place(value, "request", "mass_kg")
+def test_numbers_are_finite_and_not_below_their_least(number: Any, least: float, fits: bool) -> None:
+    place = part("numbers").Place(number, "request", "mass_kg")
     if fits:
-        assert place.double(least=least) == value
+        assert place.double(least=least) == number
     else:
         with pytest.raises(part("numbers").Unreadable):
             place.double(least=least)
@@ -324,8 +324,8 @@ def test_slopes_of_a_pressure_are_not_exceeded(side: str) -> None:
         slopes = cycle.slopes(first, last, to_shaft)
         flat += slopes == gas.FLAT
         inside = [gas.motion(ratio, start + (end - start) * n / 200) for n in range(1, 200)]
-        travel = [0.5 * 0.28 * (entry.travel if cycle.head else entry.rest) for entry in inside]
-        pressure = [cycle.at(value, to_shaft) for value in inside]
+        travel = [0.5 * 0.28 * (piston.travel if cycle.head else piston.rest) for piston in inside]
+        pressure = [cycle.at(volume, to_shaft) for volume in inside]
         first_order = [
             abs((q - p) / (y - x)) for p, q, x, y in zip(pressure, pressure[1:], travel, travel[1:], strict=False)
         ]
@@ -368,5 +368,5 @@ def test_quadratures_are_those_of_gauss_and_legendre(count: int) -> None:
     """Independent: numpy."""
     gauss = sorted(part("gas").gauss(count))
     nodes, weights = np.polynomial.legendre.leggauss(count)
-    np.testing.assert_allclose([value for value, _ in gauss], 0.5 * (nodes + 1.0), atol=1e-14)
-    np.testing.assert_allclose([value for _, value in gauss], 0.5 * weights, atol=1e-14)
+    np.testing.assert_allclose([node for node, _ in gauss], 0.5 * (nodes + 1.0), atol=1e-14)
+    np.testing.assert_allclose([weight for _, weight in gauss], 0.5 * weights, atol=1e-14)

@@ -65,11 +65,11 @@ _CRANK = Fields(throw=1, degrees=300.0)
 )  # fmt: skip
 def test_the_angle_from_a_crank(angle: float, printed: float | None, right: bool) -> None:
     """Analytic: 80 degrees from 300 to 20; off by 1e-14 of 660 degrees at most."""
-    entry = {"throw": 1, "mass_kg": 2.0, "angle_deg": angle, "angle_from_crank_deg": printed}
-    assert held(part("weights")._crank(_CRANK, place(entry))) == right
-    assert not held(part("weights")._crank(_CRANK, place(entry | {"throw": 0, "angle_from_crank_deg": 80.0})))
-    assert not held(part("weights")._crank(None, place(entry)))
-    assert not held(part("weights")._crank(None, place(entry | {"throw": None, "angle_from_crank_deg": 80.0})))
+    weight = {"throw": 1, "mass_kg": 2.0, "angle_deg": angle, "angle_from_crank_deg": printed}
+    assert held(part("weights")._crank(_CRANK, place(weight))) == right
+    assert not held(part("weights")._crank(_CRANK, place(weight | {"throw": 0, "angle_from_crank_deg": 80.0})))
+    assert not held(part("weights")._crank(None, place(weight)))
+    assert not held(part("weights")._crank(None, place(weight | {"throw": None, "angle_from_crank_deg": 80.0})))
     assert held(part("weights")._crank(None, place({"mass_kg": 2.0})))
     empty = place({"throw": 1, "mass_kg": 0.0, "angle_deg": 0.0, "angle_from_crank_deg": printed})
     assert held(part("weights")._crank(_CRANK, empty)) == (printed is None)
@@ -97,8 +97,8 @@ def test_castings_are_counted_by_their_masses(masses: list[float], pieces: int, 
                                                         (math.nan, 1e-5, 1e-5), (math.nan, 1e-4, None),
                                                         (math.nan, math.nan, None)])  # fmt: skip
 def test_the_tighter_of_two_rooms(first: float, second: float, room: float | None) -> None:
-    value = part("ceilings")._tighter(first, second)
-    assert math.isnan(value) if room is None else value == room
+    tighter = part("ceilings")._tighter(first, second)
+    assert math.isnan(tighter) if room is None else tighter == room
 
 
 def _priced(**more: Any) -> Any:
@@ -107,15 +107,15 @@ def _priced(**more: Any) -> Any:
 
 
 @pytest.mark.parametrize(
-    ("value", "right"),
+    ("price", "right"),
     [
         # 6 over a weight of 4, off by 1e-6 of itself and by what rounding leaves
         (1.5 * (1 + 0.99e-6), True), (1.5 * (1 - 0.99e-6), True), (1.5 * (1 + 1.01e-6), False),
         (1.5 * (1 - 1.01e-6), False), (6.0, False), (24.0, False), (0.0, False),
     ],
 )  # fmt: skip
-def test_a_price_is_by_what_is_weighed_first(value: float, right: bool) -> None:
-    position = place([{"limit": "max_mass", "web": "a", "value": value, "unit": "N/kg"}])
+def test_a_price_is_by_what_is_weighed_first(price: float, right: bool) -> None:
+    position = place([{"limit": "max_mass", "web": "a", "value": price, "unit": "N/kg"}])
     assert held(part("prices").price_entries(position, [_priced()], 4.0, "N", 1e-9, 1e-9, 0.0)) == right
 
 
@@ -162,7 +162,7 @@ def test_a_limit_that_is_worth_something_is_listed(price: float, touched: bool, 
 ])  # fmt: skip
 def test_a_value_of_an_axis_is_listed_or_between_its_ends(values: Any, value: Any, right: bool | None) -> None:
     path = "/machine/webs/0/max_mass_kg"
-    room = part("many")._on_axis(place({"path": path, **values}, "request"), place({path: value}))[2]
+    room = part("sweep")._on_axis(place({"path": path, **values}, "request"), place({path: value}))[2]
     assert (None if room is None else fits(room)) == right
 
 
@@ -171,7 +171,7 @@ def _curve(points: list[tuple[float, float]], knee: int | None, **ends: float) -
     fields = {"smallest_force_N": x, "moment_at_smallest_force_Nm": high, "force_at_smallest_moment_N": far}
     peaks = [{"status": "optimal", "weighted_force_peak_N": f, "weighted_moment_peak_Nm": m} for f, m in points]
     body = {"points": peaks, "ends": fields | {"smallest_moment_Nm": low} | ends, "status": "optimal", "knee": knee}
-    return held(part("many")._shape(place(body)))
+    return held(part("front")._shape(place(body)))
 
 
 def test_the_knee_is_farthest_below_the_line_between_the_ends() -> None:
@@ -296,7 +296,7 @@ def test_gaps_of_the_mass_are_up_to_a_ten_thousandth() -> None:
 def test_a_budget_is_worth_what_is_left_out_next(price: float, expected: float) -> None:
     """Analytic: gains of 8, 2 and -1 on 3, 4 and 5 kg with a budget of 5: the next kilogram is worth 2."""
     gains = [(real(8.0), real(3.0)), (real(2.0), real(4.0)), (real(-1.0), real(5.0))]
-    actual = part("program").worth_of_budget(real(price), gains, real(5.0))
+    actual = part("worth").worth_of_budget(real(price), gains, real(5.0))
     assert float(actual) == expected
 
 

@@ -125,10 +125,10 @@ def test_the_best_of_the_machine_as_it_is_given_is_proven(name: str) -> None:
         ("nominal_lower_bound", 1.001),
         ("nominal", 1.001),
     ):
-        value = price[field]
-        price[field] = value * factor
+        figure = price[field]
+        price[field] = figure * factor
         assert is_broken(request, answer), field
-        price[field] = value
+        price[field] = figure
     # a bound that is lower than was sought is no lie, and is named
     price["nominal_lower_bound"] *= 0.999
     judged = checker().verify(request, answer)
@@ -179,7 +179,7 @@ def test_scenarios_move_planes_of_their_own(path: str, orders: str) -> None:
     [("throws/0/rows/0/reciprocating_mass_kg", 9.0), ("throws/1/position_m", 0.12), ("speed_rpm", 700.0)],
 )
 def test_floors_of_a_scenario_alone_are_those_of_its_machine(path: str, value: float) -> None:
-    """Regression: the checker took them from the machine as it is given. Without limits what turns is cancelled."""
+    """Regression: the checker took them from the unchanged machine. Without limits what turns is cancelled."""
     body = copy.deepcopy(SINGLE["infeasible without limits"])
     changes = [{"path": f"/machine/{path}", "value": value}]
     body["scenarios"] = [{"name": "changed", "weight": 0.7, "changes": changes}]

@@ -52,12 +52,12 @@ def test_all_but_the_search_is_held(name: str) -> None:
 def test_what_is_falsified_is_broken(name: str) -> None:
     request, answer = _pair(name)
     first = ("alternatives", 0)
-    entry = answer["alternatives"][0]
+    alternative = answer["alternatives"][0]
     for field in ("objective", "total_mass_kg", "pieces", "sizes"):
-        assert is_broken(request, replaced(answer, (*first, field), entry[field] * 1.001 + 1e-9)), field
-    bound = entry["lower_bound"]
+        assert is_broken(request, replaced(answer, (*first, field), alternative[field] * 1.001 + 1e-9)), field
+    bound = alternative["lower_bound"]
     assert bound is None or is_broken(request, replaced(answer, (*first, "lower_bound"), 1.001 * bound + 1e-3))
-    shafts = entry["balance_shafts"]
+    shafts = alternative["balance_shafts"]
     if shafts:
         where = (*first, "balance_shafts", 0, "counterweights", 0, "mass_kg")
         assert is_broken(request, replaced(answer, where, 0.5 + shafts[0]["counterweights"][0]["mass_kg"]))

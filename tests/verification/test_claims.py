@@ -225,8 +225,8 @@ def test_what_rounding_of_the_limits_hides_is_no_fault() -> None:
     assert answer["infeasibility"]["smallest_moment_Nm"] > 0
     judgement = checker().verify(body, answer)
     assert not broken(body, answer)
-    value, bound = (answer["infeasibility"][f"smallest_moment_{name}"] for name in ("Nm", "lower_bound_Nm"))
-    hidden = bound < (1.0 - 1e-9) * value
+    moment, bound = (answer["infeasibility"][f"smallest_moment_{name}"] for name in ("Nm", "lower_bound_Nm"))
+    hidden = bound < (1.0 - 1e-9) * moment
     assert hidden == any(
         claim["claim"] == "smallest_moment" and claim["margin"] is None for claim in judgement["claims"]
     )

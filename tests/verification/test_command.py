@@ -52,9 +52,9 @@ def test_what_is_no_json_is_named(text: str, message: str, tmp_path: Path, capsy
     bad = tmp_path / "bad.json"
     bad.write_bytes(text.encode("utf-8", "surrogatepass"))
     assert part("claims").main(lambda *_: {}, None, [str(bad), str(bad)]) == 2
-    value = capsys.readouterr()
-    assert value.out == ""
-    assert message in value.err
+    printed = capsys.readouterr()
+    assert printed.out == ""
+    assert message in printed.err
     assert part("claims").main(lambda *_: {}, None, [str(tmp_path / "none.json")] * 2) == 2
 
 

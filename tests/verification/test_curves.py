@@ -61,7 +61,7 @@ def test_bearings_carry_what_the_service_has_them_carry(continuous: bool, count:
     loads = np.append(rng.uniform(-1.5, 1.5, 8), places)
     influence = continuous_beam_influence if continuous else simple_spans_influence
     spans = part("spans").Spans([Fraction(place) for place in places], continuous)
-    shares = [[float(share) for share in spans.shares(Fraction(value))] for value in loads]
+    shares = [[float(share) for share in spans.shares(Fraction(load))] for load in loads]
     # lengths of spans may differ by far
     np.testing.assert_allclose(shares, influence(places, loads).T, atol=1e-9)
 

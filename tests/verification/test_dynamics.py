@@ -66,10 +66,10 @@ def test_samples_and_peaks_that_are_falsified_are_broken(name: str, some: int) -
         for path in places[:: max(1, len(places) // some)]:
             if path[-1] in ("mean_torque_error_Nm", "fluctuation_energy_error_J"):
                 continue
-            value: Any = answer
+            node: Any = answer
             for step in path:
-                value = value[step]
-            assert _refuted(request, replaced(answer, path, value * 1.001 + 1e-3), output), path
+                node = node[step]
+            assert _refuted(request, replaced(answer, path, node * 1.001 + 1e-3), output), path
 
 
 @settings(max_examples=10)
@@ -127,7 +127,7 @@ def test_a_polytrope_keeps_p_times_volume_to_its_exponent(
 def test_work_and_valves_of_a_cycle(head: bool, ratio: float) -> None:
     """Analytic: of four processes, n / (n - 1) (p_2 V_2 - p_1 V_1) of a polytrope with what is let in or out."""
     cycle, row = _cycle(head, ratio, 0.08), _pistons("dynamics").rows[0]
-    row.radius, entry = 0.1, (row.radius, row.chambers)
+    row.radius, rest = 0.1, (row.radius, row.chambers)
     row.chambers = [cycle]
 
     def technical(exponent: float, pressure: float, volume: float) -> float:
@@ -140,7 +140,7 @@ def test_work_and_valves_of_a_cycle(head: bool, ratio: float) -> None:
         there = part("gas").motion(row.ratio, angle)
         assert cycle.at(there, angle < pi) == pytest.approx(pressure, rel=1e-9)
         assert cycle.at(part("gas").motion(row.ratio, angle - 1e-3), angle < pi) != pressure
-    row.radius, row.chambers = entry
+    row.radius, row.chambers = rest
 
 
 @settings(max_examples=20)
@@ -156,7 +156,7 @@ def test_a_peak_of_pressed_rows_is_enclosed(name: str, data: st.DataObject) -> N
     peak = curve.peak(sign=sign)
     assert peak.high <= peak.low + 1e-9 * abs(peak.low) + 1e-11 * curve.size
     values = [curve.value(angle) for angle in np.linspace(0.0, pistons.period, 500)]
-    heights = [sign * entry.real if sign else abs(entry) for entry in values]
+    heights = [sign * phasor.real if sign else abs(phasor) for phasor in values]
     assert max(heights) <= peak.high + 1e-11 * curve.size
     there = [sign * side.real if sign else abs(side) for side in curve.sides(peak.angle)]
     assert max(there) == pytest.approx(peak.low, rel=1e-6, abs=1e-6 * curve.size)

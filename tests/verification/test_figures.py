@@ -246,7 +246,7 @@ def test_what_doubles_do_not_hold_is_not_covered(error: type[Exception]) -> None
         raise error
 
     values = list(part("claims").covered(claims()))
-    assert [(value[0], value[2] is None, value[1].path) for value in values[1:]] == [("request", True, ("request",))]
+    assert [(claim[0], claim[2] is None, claim[1].path) for claim in values[1:]] == [("request", True, ("request",))]
 
     def unreadable() -> Any:
         yield "x", place(1.0), real(1.0), real(1.0)

@@ -63,10 +63,10 @@ def test_weights_that_are_off_by_a_millionth_are_broken(name: str) -> None:
     places = [("loads", *path) for path in numbers(answer["loads"]) if _OF_GRAVITY & {*path}]
     assert len(places) > 2
     for path in places:
-        value = at(answer, path)
+        leaf = at(answer, path)
         # an upright row has no weight on its guide, and one pull has no part across itself
-        if value:
-            assert is_broken(request, replaced(answer, path, value * (1 + 1e-6))), path
+        if leaf:
+            assert is_broken(request, replaced(answer, path, leaf * (1 + 1e-6))), path
 
 
 @pytest.mark.parametrize(

@@ -80,13 +80,13 @@ def test_all_leaves_are_counted(name: str) -> None:
     verdict = checker().verify(request, answer)
     checker()
     silent = sys.modules["verify_leaves"].REMARKS
-    named = [entry.split("/")[2:] for entry in verdict["not_covered"]]
+    named = [pointer.split("/")[2:] for pointer in verdict["not_covered"]]
     missed = counted = 0
     for path in _leaves(answer):
         if silent & {*path} or {"multipliers", "nominal_multipliers", "implied_max_mass_kg"} & {*path}:
             continue
         counted += 1
-        missed += any(["*" if part.isdecimal() else part for part in path[: len(value)]] == value for value in named)
+        missed += any(["*" if part.isdecimal() else part for part in path[: len(name)]] == name for name in named)
     assert (verdict["leaves"], verdict["checked"]) == (counted, counted - missed) or "multipliers" in str(named)
     assert verdict["verdict"] == ("held" if missed == 0 and not named else "not covered")
 

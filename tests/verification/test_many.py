@@ -277,7 +277,7 @@ def test_axes_through_lists_take_texts() -> None:
 
 @pytest.mark.parametrize("angles", every(4, [["400 deg", "-0.3 rad"], [0.0, 90.0], [120.0, 120.0]]))
 def test_orders_of_cranks(angles: list[Any]) -> None:
-    """Regression: rows were held against the machine as it is given."""
+    """Regression: rows were held against the unchanged machine."""
     body = {"base": SINGLE["sum"], "design": "crank_orders", "angles_deg": angles, "multipliers": True}
     table = swept(body)
     assert verdict(body, table) == "held"

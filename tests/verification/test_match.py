@@ -48,8 +48,8 @@ def test_a_fixed_weight_is_on_its_web_whatever_is_listed() -> None:
 def test_a_row_is_named_by_whole_numbers(files: tuple[Answer, Answer], where: str, field: str) -> None:
     """Regression: the fraction of a number was cut off."""
     request, answer = files[0], copy.deepcopy(files[1])
-    entry = next(value for value in answer[where] if value[field])
-    entry[field] *= 1.001
+    assignment = next(row for row in answer[where] if row[field])
+    assignment[field] *= 1.001
     assert checker().verify(request, answer)["verdict"] == "broken"
 
 

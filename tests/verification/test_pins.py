@@ -120,15 +120,15 @@ def test_figures_that_are_off_by_a_millionth_are_broken(name: str, step: int) ->
     largest = max(abs(load or 0.0) for pin in answer["pins"] for load in pin["load_N"])
     count = 0
     for path in list(numbers(answer))[::step]:
-        value, field = at(answer, path), next(part for part in reversed(path) if isinstance(part, str))
-        if "timing" in path or field in _LEVEL or value == 0 or (name in _WITH_CLEARANCE and field in _BETWEEN):
+        leaf, field = at(answer, path), next(part for part in reversed(path) if isinstance(part, str))
+        if "timing" in path or field in _LEVEL or leaf == 0 or (name in _WITH_CLEARANCE and field in _BETWEEN):
             continue
-        if field == "load_N" and abs(value) < 1e-6 * largest:
+        if field == "load_N" and abs(leaf) < 1e-6 * largest:
             # what rounding leaves
             continue
         count += 1
         try:
-            assert is_broken(request, replaced(answer, path, value * (1 + 1e-6))), path
+            assert is_broken(request, replaced(answer, path, leaf * (1 + 1e-6))), path
         except checker().Unreadable:
             continue
     assert count > 10 // step
@@ -213,8 +213,8 @@ def test_even_pins_carry_what_liu_zhao_and_li_say() -> None:
     pins = _pins({"pin_count": 5, "pin_circle_radius_m": 0.05})
     for k in range(5):
         for angle in (0.0, 33.0, 200.0):
-            value = 2 * 7.0 * sin(radians(angle - 72.0 * k)) / (5 * 0.05)
-            assert pins.load(k, 7.0, angle)[0] == pytest.approx(value, abs=1e-12)
+            force = 2 * 7.0 * sin(radians(angle - 72.0 * k)) / (5 * 0.05)
+            assert pins.load(k, 7.0, angle)[0] == pytest.approx(force, abs=1e-12)
 
 
 @pytest.mark.parametrize(

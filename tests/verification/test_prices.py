@@ -19,11 +19,11 @@ def _held(stated: Any, values: list[Any], dust: float = 0.0) -> bool:
     return all(room.high >= 0 for _, _, room, _ in claims)
 
 
-@pytest.mark.parametrize(("value", "held"), [(5.0, True), (5.1, False), (0.0, False)])
-def test_a_budget_of_nothing_has_its_price(value: float, held: bool) -> None:
+@pytest.mark.parametrize(("price", "held"), [(5.0, True), (5.1, False), (0.0, False)])
+def test_a_budget_of_nothing_has_its_price(price: float, held: bool) -> None:
     """Regression: a quotient by the size of a limit that is 0 was no number."""
     stated = part("prices").Priced("max_total_mass", "", 5.0, 0.0, "kg", True)
-    assert _held(stated, [{"limit": "max_total_mass", "web": None, "value": value, "unit": "N/kg"}]) == held
+    assert _held(stated, [{"limit": "max_total_mass", "web": None, "value": price, "unit": "N/kg"}]) == held
 
 
 @pytest.mark.parametrize(("dust", "held"), [(1e-22, True), (0.0, False)])

@@ -26,7 +26,7 @@ from tests.verification.test_curves import part
             ("balance shafts", 261, 77, "cuts"),
             # a minimum of 9e-44 kg beside a budget of 35 t, whose least price of 1e-30 would cost 3e-26 kg
             ("plates", 267, 77, "mass_lower_bound"),
-            # webs of 1e15 kg and more in a scenario, which the machine as it is given has no use for
+            # webs of 1e15 kg and more in a scenario, which the unchanged machine has no use for
             ("scenarios", 88, 78, "nominal_optimum"),
             ("tolerances", 404, 78, "nominal_optimum"),
             # a limit of 1e300 kg: 8e-8 kg are enough where masses are off, 2e-9 kg where none is
@@ -106,7 +106,7 @@ def test_a_yardstick_of_what_webs_are_implied_to_carry_is_named() -> None:
             ("plates", 32, 85, 0.001),
             # other masses are the worst where counterweights are off
             ("scenarios", 14, 85, 0.1),
-            # a bound of the machine as it is that counts with less than its plates
+            # a bound of the unchanged machine that counts with less than its plates
             ("plates", 128, 85, 0.001),
             # no time to look for the worst masses of what was come to
             ("plates", 135, 86, 1.0),
@@ -116,7 +116,7 @@ def test_a_yardstick_of_what_webs_are_implied_to_carry_is_named() -> None:
             ("plates", 51, 87, 1.0),
             # two ways to be off whose peaks differ by 3e-13
             ("tolerances", 29, 88, 0.02),
-            # ceilings that the best of the machine as it is does not keep
+            # ceilings that the best of the unchanged machine does not keep
             ("axis ceilings", 100, 88, 0.001),
             # a ceiling of nothing on a moment that there is with heavy masses only
             ("axis ceilings", 55, 95, 1.0),
@@ -150,10 +150,10 @@ def test_every_figure_of_masses_that_are_off_is_covered() -> None:
         ("sensitivity", "objective_rise_per_deg"),
     )
     for room, field in places:
-        value = answer[room][field]
-        answer[room][field] = value * 1.001
+        figure = answer[room][field]
+        answer[room][field] = figure * 1.001
         assert is_broken(request, answer), field
-        answer[room][field] = value
+        answer[room][field] = figure
 
 
 @pytest.mark.parametrize("size", [1e-6, 0.5, 20.0])
@@ -181,9 +181,9 @@ def _full_plate(opening_deg: float) -> bool:
         "chord_height_m": None,
     }
     lever = 2 / 3 * areal * (outer**3 - inner**3) * sin(angle) / mass
-    entry = part("numbers").Place({"mass_kg": mass, "radius_m": lever, "shape": shape}, "answer", "counterweights")
+    weight = part("numbers").Place({"mass_kg": mass, "radius_m": lever, "shape": shape}, "answer", "counterweights")
     plate = part("plates").Plate(False, inner, outer, areal, radians(60.0))
-    return all(room.high >= 0 for _, _, room, _ in part("weights")._cut(plate, entry))
+    return all(room.high >= 0 for _, _, room, _ in part("weights")._cut(plate, weight))
 
 
 @pytest.mark.parametrize(("opening_deg", "held"), [(45.0, True), (60.0, True), (60.0 + 1e-9, False)])

@@ -44,7 +44,10 @@ _NAMES = [name for name in records() if not any(part in name for part in (*LEFT_
 def slower(value: Any, name: str = "") -> Any:
     """The same at 2^-20 times the speed."""
     if name == "shadow_prices" and isinstance(value, list):
-        return [entry | {"value": entry["value"] * (_SLOWER if entry["unit"] in _PRICES else 1.0)} for entry in value]
+        return [
+            multiplier | {"value": multiplier["value"] * (_SLOWER if multiplier["unit"] in _PRICES else 1.0)}
+            for multiplier in value
+        ]
     if name in ("multipliers", "nominal_multipliers") and isinstance(value, dict):
         return {key: _slower_multipliers(value, key) for key, value in value.items()}
     if isinstance(value, dict):
@@ -67,7 +70,8 @@ def _slower_multipliers(proof: Any, bounded: str) -> Any:
 
     changed = {
         part: [
-            {k: times(v, of_forces) if k in ("x", "y", "value") else v for k, v in entry.items()} for entry in values
+            {k: times(v, of_forces) if k in ("x", "y", "value") else v for k, v in multiplier.items()}
+            for multiplier in values
         ]
         for part, values in proof.items()
         if isinstance(values, list)

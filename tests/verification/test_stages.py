@@ -117,19 +117,19 @@ def test_figures_that_are_off_by_a_millionth_are_broken(name: str, step: int) ->
         places = [("stages", k, *path) for path in numbers(stage)]
         most = max(abs(level["value"]) for level in stages if level["unit"] == stage["unit"])
         for path in places[k % step :: step]:
-            value = at(answer, path)
+            leaf = at(answer, path)
             # rounding has no share, nor has its direction one
-            if value == 0 or min(_size(answer, path), abs(at(stages, (k, "value"))) or most) < _DUST * most:
+            if leaf == 0 or min(_size(answer, path), abs(at(stages, (k, "value"))) or most) < _DUST * most:
                 continue
             count += 1
-            assert refuted(replaced(answer, path, value * (1 + _SHARE))), path
+            assert refuted(replaced(answer, path, leaf * (1 + _SHARE))), path
     assert count > 18 // step
 
 
 def _size(answer: Any, path: tuple[str | int, ...]) -> float:
     """What a place tells the size of, or that of which it tells the direction."""
-    verdict = path[-1] in ("direction_deg", "frequency_Hz", "order", "transferred_share", "position_m")
-    size: float = at(answer, path[:-1]).get("peak", float("inf")) if verdict else abs(at(answer, path))
+    plain = path[-1] in ("direction_deg", "frequency_Hz", "order", "transferred_share", "position_m")
+    size: float = at(answer, path[:-1]).get("peak", float("inf")) if plain else abs(at(answer, path))
     return size
 
 
@@ -138,11 +138,11 @@ def test_what_acts_is_called_as_it_is(field: str) -> None:
     request, text = _pair("clockwise")
     answer = json.loads(text)
     refuted = _judge(request, answer)
-    value = {"motion": "none", "quantity": "couple", "unit": "N mm", "order": 3}[field]
+    changed = {"motion": "none", "quantity": "couple", "unit": "N mm", "order": 3}[field]
     for k in (0, 3, 7):
-        assert refuted(replaced(answer, ("stages", k, "acting", 0, field), value))
-        if answer["stages"][k]["left"][0][field] != value:
-            assert refuted(replaced(answer, ("stages", k, "left", 0, field), value))
+        assert refuted(replaced(answer, ("stages", k, "acting", 0, field), changed))
+        if answer["stages"][k]["left"][0][field] != changed:
+            assert refuted(replaced(answer, ("stages", k, "left", 0, field), changed))
 
 
 @pytest.mark.parametrize("verdict", ["fully", "partly", "no"])
@@ -195,9 +195,9 @@ def test_words_are_no_claims() -> None:
         assert (verdict["leaves"], verdict["checked"]) == (whole["leaves"], whole["checked"])
 
 
-def _number(value: complex) -> Any:
+def _number(phasor: complex) -> Any:
     tools = part("numbers")
-    return tools.real(value.real) + tools.J * tools.real(value.imag)
+    return tools.real(phasor.real) + tools.J * tools.real(phasor.imag)
 
 
 @pytest.mark.parametrize(

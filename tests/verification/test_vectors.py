@@ -166,8 +166,8 @@ def test_what_a_curve_is_made_of(angle: float) -> None:
     assert curve.sides(angle) == [curve.at(angle)]
     assert curve.length(angle) == pytest.approx(abs(exact), rel=1e-14)
     on_frame = exact * cmath.exp(1j * angle)
-    for axis, value in (("x", on_frame.real), ("y", on_frame.imag)):
-        assert curve.along(axis).at(angle) == pytest.approx(complex(value), rel=1e-13)
+    for axis, component in (("x", on_frame.real), ("y", on_frame.imag)):
+        assert curve.along(axis).at(angle) == pytest.approx(complex(component), rel=1e-13)
     assert curve.plus(1 - 2j).at(angle) == pytest.approx(exact + 1 - 2j, rel=1e-14)
     turning = curve.plus(1 - 2j, 5).plus(3j, -2)
     more = (1 - 2j) * cmath.exp(5j * angle) + 3j * cmath.exp(-2j * angle)
@@ -247,9 +247,9 @@ def test_cuts_are_judged_where_they_prove_most() -> None:
     corners = _corners(3)
     of = Fields(corners=corners, statements=corners, exact="exact")
 
-    def cuts(value: float, *responses: str) -> list[Any]:
+    def cuts(bound: float, *responses: str) -> list[Any]:
         return [
-            numbers.Place({"response": text, "part": "co", "x": value, "y": 5.0}, "answer", k)
+            numbers.Place({"response": text, "part": "co", "x": bound, "y": 5.0}, "answer", k)
             for k, text in enumerate(responses)
         ]
 

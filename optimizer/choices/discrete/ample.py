@@ -1,8 +1,8 @@
 """Light sets near the optimum of any masses, of slots with many options.
 
 The lightest optimum of any masses is on few webs. Their options near it are compared in halves, beside light ones on
-two or four other slots: some ten thousand sums on either side, of each the nearest of the other.
-Force and moment have four real dimensions, in which so many sums lie close together.
+two or four other slots. That is some ten thousand sums on either side, of each the nearest of the other. Force and
+moment have four real dimensions, in which so many sums lie close together.
 """
 
 from collections.abc import Callable

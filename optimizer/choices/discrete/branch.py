@@ -183,8 +183,8 @@ class Work:
         return closed, self._splits(nodes, rows[~few], bound, left[~few], near[~few], multipliers.subset(~few))
 
     def relaxation(self, left: np.ndarray, clock: Clock) -> tuple[Complex, Multipliers, np.ndarray]:
-        """Of nodes (N, K, O) the optima within discs, segments and sectors: unbalances of first webs (N, K) kg m, the
-        multipliers of their bounds, and whether it is proven that nothing keeps their ceilings (N,)."""
+        """Optima of nodes (N, K, O) within discs, segments and sectors. They are unbalances of first webs (N, K) kg m,
+        the multipliers of their bounds, and whether it is proven that nothing keeps their ceilings (N,)."""
         whole, parts_of, slot = self.apart
         base, program = relaxed(whole, parts_of, left[:, slot])
         count = len(left)

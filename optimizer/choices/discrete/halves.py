@@ -15,7 +15,7 @@ from optimizer.numerics.arrays import Complex, Real
 Sides = tuple[list[int], list[int]]
 
 #: sums of a half up to which they are listed, and at most where those of its quarters did not do
-_LISTED, _LISTED_AT_MOST = 20_000, 300_000
+_LIST_SIZE, _LARGEST_LIST = 20_000, 300_000
 #: pairs up to which all are evaluated
 _FEW = 20_000
 #: part numbers that fit into the bits of a whole number
@@ -109,12 +109,12 @@ def exhaust(
     """
     has_counts = options.limits_fitted or options.limits_parts
     several = np.sort([float(len(entry)) for entry in candidates])[::-1]
-    if not has_counts and np.prod(several[::2]) > _LISTED and np.isfinite(incumbent.level):
+    if not has_counts and np.prod(several[::2]) > _LIST_SIZE and np.isfinite(incumbent.level):
         split = halves(options, candidates, incumbent, most_sums, clock, with_lists=False)
         if split is not None and _compared(split, incumbent, most_pairs, clock):
             return True
     # sums that are the same are listed once
-    split = halves(options, candidates, incumbent, min(most_sums, _LISTED_AT_MOST), clock)
+    split = halves(options, candidates, incumbent, min(most_sums, _LARGEST_LIST), clock)
     return split is not None and _compared(split, incumbent, most_pairs, clock)
 
 

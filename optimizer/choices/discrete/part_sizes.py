@@ -11,7 +11,7 @@ from optimizer.choices.discrete.options import Incumbent
 from optimizer.numerics.arrays import Complex, Real
 
 #: sums of a half where sizes are tried, and of those that are best
-_TRIED, _WIDE = 4_000, 500_000
+_TRIAL_SUMS, _WIDE = 4_000, 500_000
 #: slots beside those of the optimum where few part numbers may be used
 _TRIMS = 4
 #: slots of the optimum that may take any angle
@@ -81,7 +81,7 @@ class PartSizes:
         if len(sizes) < self.most:
             for size in dict.fromkeys(self._nearest(share * float(self.mass[sizes[-1]])) for share in _SHARES):
                 small = size if self._better(sizes, size) else small
-        for trims, sums in ((_TRIMS, _TRIED), (self.incumbent.options.slots, _WIDE)):
+        for trims, sums in ((_TRIMS, _TRIAL_SUMS), (self.incumbent.options.slots, _WIDE)):
             self._better(sizes, small, trims, sums)
             move: tuple[Sizes, int] | None = (sizes, small)
             while move is not None and not self._over():
@@ -108,7 +108,7 @@ class PartSizes:
                     return sizes, trim_size
         return None
 
-    def _better(self, main: Sizes, small: int, most_trims: int = _TRIMS, sums: int = _TRIED) -> bool:
+    def _better(self, main: Sizes, small: int, most_trims: int = _TRIMS, sums: int = _TRIAL_SUMS) -> bool:
         """Whether slots of the optimum with the main sizes, and others with the small one, make a better set."""
         better = False
         for trims in self.trims:

@@ -23,7 +23,7 @@ _FEWEST = 12
 #: options of a slot at least that are tried, where it has as many
 _FEWEST_OPTIONS = 3
 #: how far at most that place is moved from what is on the slots towards where most sums are
-_MOVED = 0.3
+_SHIFT = 0.3
 _SEED = 20_240_301
 
 
@@ -48,7 +48,7 @@ def quarters(incumbent: Incumbent, enough: Callable[[], bool], clock: Clock) -> 
         near = _near(options, selection, _SUMS)
         dealt = [_quarter(measure, selection, slots, near) for slots in _dealt(near, _SUMS, chance)]
         middle = [np.mean(entry.points, axis=0) for entry in dealt]
-        about = chance.random() * _MOVED * (middle[0] + middle[1] + 0.5 * (measure.target - sum(middle)))
+        about = chance.random() * _SHIFT * (middle[0] + middle[1] + 0.5 * (measure.target - sum(middle)))
         orders = nearest_sums([entry.points for entry in dealt], about, measure.target)
         left -= 1
         if orders.size:

@@ -46,7 +46,7 @@ def on_first(options: Options, u: Complex) -> Complex:
 def relaxed(statement: Statement, options: Options, left: np.ndarray) -> tuple[Complex, Statement]:
     """Base points (N, K) and programs in what is added to them, within discs, segments and sectors about the options.
 
-    Where nothing is left a choice the base is 0 and masses are those of the program; elsewhere the base is the nearest
+    Where nothing is left a choice the base is 0 and masses are those of the program. Elsewhere the base is the nearest
     of options on one ray, or the middle of the others.
 
     Parameters

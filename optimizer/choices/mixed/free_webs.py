@@ -23,7 +23,7 @@ _SPECK, _NOTHING = 1e-9, 1e-9
 #: an optimum may be so far above the smallest objective
 _SHARE = 1e-9
 #: of sets whose other webs are too light, those that are made to keep their least masses
-_TRIED = 4
+_REPAIRS = 4
 
 
 @record(frozen=True)
@@ -107,7 +107,7 @@ class FreeWebs:
             incumbent = BestPoint(programs.subset(n), self.places, 0.0)
             nothing = np.where(np.abs(points[n]) >= self.least, points[n], 0.0)
             incumbent.offer(np.stack([nothing, np.zeros(self.least.size, complex)]))
-            if place < _TRIED and value[n] < below and not clock.spent():
+            if place < _REPAIRS and value[n] < below and not clock.spent():
                 sharing(incumbent, points[n], clock)
             points[n] = nothing if incumbent.unbalance is None else incumbent.unbalance
         return points

@@ -19,7 +19,7 @@ from optimizer.numerics.arrays import Complex, Real
 from optimizer.program.statement import Statement
 
 #: nodes bounded at once, those of them whose relaxed points are made to keep everything, and those that may be open
-_BATCH, _TRIED, _OPEN = 64, 4, 200_000
+_BATCH, _REPAIRS, _OPEN = 64, 4, 200_000
 #: radius of the disc whose edge stands for a chord, in units of the largest unbalance
 _SAG = 30.0
 #: a piece this narrow is not cut, rad; and the share of the least by which a point may miss it
@@ -118,7 +118,7 @@ def _offer(incumbent: BestPoint, places: Places, near: Complex, bounds: Real, cl
     least = places.least
     incumbent.offer(np.where((least > 0) & (np.abs(near) <= _MISSES * least), 0.0, near))
     # one after the other where the kernel may not take them
-    best = np.argsort(bounds, kind="stable")[: _TRIED if places.alike is None else 1]
+    best = np.argsort(bounds, kind="stable")[: _REPAIRS if places.alike is None else 1]
     points = near[best]
     improved(incumbent, points, places.whole(places.fitted[best] | (np.abs(points) >= 0.5 * least)), clock)
 

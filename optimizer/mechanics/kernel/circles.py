@@ -20,20 +20,20 @@ _MOST_POINTS = 50
 _ROUNDING = 256 * np.finfo(float).eps
 #: orders, as numpy's integers like all else that is handed on
 _VALUE, _CUBIC = np.int64(0), np.int64(3)
-#: numbers of a circle: what no point of the curve is farther away than from the centre, how many points hold it, their
-#: angles and their weights
-RADIUS, UPPER, COUNT, ANGLES, WEIGHTS, _NUMBERS = 0, 1, 2, 3, 6, 9
+#: numbers of a circle: its radius, what no point of the curve is farther away than from the centre, how many points
+#: hold it. Then how often its points were searched, and the angles and the weights of those that hold it
+RADIUS, UPPER, COUNT, ROUNDS, ANGLES, WEIGHTS, _NUMBERS = 0, 1, 2, 3, 4, 7, 10
 
 
 @inner_with_arrays
 def circles(cubics, members, rows, sums, middle, motion):  # type: ignore[no-untyped-def]
     """The smallest circles around curves (J,): centres and the curves where they hold the circles (J, 4), and numbers
-    (J, 9), as named above.
+    (J, 10), as named above.
 
     Parameters
     ----------
-    members : which curves, and of each group of them only the largest radius counts; how much of a radius may be left
-        open (1,), and as rounding the size of what is added up in each.
+    members : which curves, and of each group of them only the largest radius counts. Its share is how much of a radius
+        may be left open (1,), its rounding the size of what is added up in each.
     """
     number, group, tolerance, size = members.curve, members.group, members.share[0], members.rounding
     count = number.size
@@ -53,7 +53,7 @@ def circles(cubics, members, rows, sums, middle, motion):  # type: ignore[no-unt
     for k in range(first.size):
         first[k] = mask[outline.curve[k]]
     of, at, angle = outline.curve[first], outline.at[first], outline.angle[first]
-    points = np.empty(0, np.complex128)
+    points, numbers = np.empty(0, np.complex128), np.zeros((count, _NUMBERS))
     for _ in range(_MOST_POINTS if active.size > 0 else 0):
         # all points that may hold a circle about this centre, not only the farthest
         owner, curve, piece, half, near = farthest(cubics, number, outline, active, centre[active])
@@ -72,6 +72,7 @@ def circles(cubics, members, rows, sums, middle, motion):  # type: ignore[no-unt
         for k in range(active.size):
             j, most = active[k], peak.upper[k]
             upper[j] = most
+            numbers[j, ROUNDS] += 1.0
             least = max(tolerance * NEARLY_NOTHING, _ROUNDING) * size[j]
             open_ = most > radius[j] * (1.0 + tolerance) + least
             beyond[k] = open_ and most > largest[group[j]]
@@ -85,7 +86,7 @@ def circles(cubics, members, rows, sums, middle, motion):  # type: ignore[no-unt
         )
         surround(of, points, active, result)
         _keep(result, active, centre, radius)
-    vectors, numbers = np.zeros((count, 4), np.complex128), np.zeros((count, _NUMBERS))
+    vectors = np.zeros((count, 4), np.complex128)
     for j in range(count):
         vectors[j, 0], numbers[j, RADIUS], numbers[j, UPPER] = result.centre[j], result.radius[j], upper[j]
         numbers[j, COUNT] = result.counts[j]
@@ -116,13 +117,14 @@ def _peaks(  # type: ignore[no-untyped-def]
 ):
     """Peaks of some curves (n,) about their centres, and the curves there."""
     count = active.size
+    terms = np.empty(count)  # size of what is added up in each, its centre with it
     members = Members(
         number[active], np.arange(count), -centre[active], np.empty(count), np.empty(count), np.zeros(count)
     )
     for k in range(count):
-        scale = length(centre[active[k]]) + size[active[k]]
+        terms[k] = length(centre[active[k]]) + size[active[k]]
         members.share[k] = 0.5 * tolerance
-        members.rounding[k] = max(0.5 * tolerance * NEARLY_NOTHING, ROUNDING) * scale
+        members.rounding[k] = max(0.5 * tolerance * NEARLY_NOTHING, ROUNDING) * terms[k]
     best = Best(
         np.full(count, np.nan),
         np.full(count, -np.inf),
@@ -133,7 +135,7 @@ def _peaks(  # type: ignore[no-untyped-def]
     value = search(cubics, members, best, rows, sums, middle, motion)
     cubic = np.zeros(4, np.complex128)
     for k in range(count):
-        best.upper[k] += ROUNDING * (length(centre[active[k]]) + size[active[k]])
+        best.upper[k] += ROUNDING * terms[k]
         cubic[:] = 0.0
         cubic[0] = value[k]
         into_motion(motion, members.curve[k], cubic, 0.0, best.angle[k], 0.0)

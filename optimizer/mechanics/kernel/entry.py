@@ -85,7 +85,7 @@ def over_turn(
     Of forces of many designs as functions come the results of :func:`design_forces`, about centres that are sought. Of
     peaks, which it improves, the curves there (G, 1, 1); of levels (N,) the angles (N, n) at which curves cross them
     in place of what is left out, and what their integrals may be off by (N,) in place of the size; of circles the
-    results of :func:`circles`, (J, 4, 1) and (J, 9).
+    results of :func:`circles`, (J, 4, 1) and (J, 10).
 
     Parameters
     ----------

@@ -1,6 +1,6 @@
 """A pseudo-random permutation of numbers, compiled: :func:`optimizer.studies.sweep.designs.permuted`.
 
-A Feistel network on the smallest domain of 2^bits that holds all numbers; those that it sends beyond are sent on until
+A Feistel network on the smallest domain of 2^bits that holds all numbers. Those that it sends beyond are sent on until
 they come back (cycle walking), which keeps it one to one.
 """
 

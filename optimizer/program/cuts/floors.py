@@ -1,7 +1,7 @@
 """Bounds that need no solver: the smallest circles around the cuts of quantities.
 
 The radius of the smallest circle around points of a curve is a floor of its peak, and the weights of its support are
-the multipliers that prove it: sum lam (point - centre) = 0, so that no counterweight enters
+the multipliers that prove it. They have sum lam (point - centre) = 0, so that no counterweight enters
 (:mod:`optimizer.numerics.enclosing_circle`).
 """
 

@@ -200,7 +200,7 @@ class Search:
         """Gap that ends the search, in units of what is small.
 
         Of a mass no more is to be had than what is paid for the room between what the solver keeps and what the bound
-        counts with: more rounds do not narrow it.
+        counts with. More rounds do not narrow it.
         """
         if not self.of_mass:
             return enough

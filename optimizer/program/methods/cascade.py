@@ -48,8 +48,8 @@ def cascade(statement: Statement, target: Target, quick: StagePair) -> ConeSolut
 
     Returns
     -------
-    ConeSolution, whose gap tells how far it is certified and whose excess whether the ceilings are kept
-    (if neither could be decided, on the very boundary, they are not); or the proof that they cannot be.
+    ConeSolution, whose gap states how far it is certified and whose excess whether the ceilings are kept; or the proof
+    that they cannot be. On the very boundary, where neither can be decided, they are not kept.
     Where time is up the methods that have begun are the last.
     """
     find = _under_ceilings if statement.ceilings.names else _by_all

@@ -297,11 +297,11 @@ def _product(influence: Real, most: Real) -> Real:
 def _in_sectors(influence: Real, limits: Limits, most: Real, scalar: np.ndarray) -> float:
     """Mass that carries every c with |c_s| <= most_s that the sectors can carry at all, kg; inf where that fails.
 
-    A sector is the cone of its edges and its middle, so what can be carried is the cone of these rays r_i in R^2s;
-    of a scalar only the real part counts.
-    Rays whose opposites it holds too span its lineality space; a vector y is 0 on that and at least delta on all the
-    others, so that those carry sum lam <= c.y/delta. What they leave lies in the lineality space, each direction of
-    which is carried by the rays in it. Both come from linear programs, whose numbers are used as they turn out.
+    A sector is the cone of its edges and its middle, so what can be carried is the cone of these rays r_i in R^2s. Of a
+    scalar only the real part counts. Rays whose opposites it holds too span its lineality space. A vector y is 0 on
+    that and at least delta on all the others, so that those carry sum lam <= c.y/delta. What they leave lies in the
+    lineality space, each direction of which is carried by the rays in it. Both come from linear programs, whose numbers
+    are used as they turn out.
     """
     # takes longer to load than what every program needs, and few have sectors
     from scipy.optimize import linprog

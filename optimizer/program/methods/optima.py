@@ -50,8 +50,8 @@ class Optima(Solutions):
     conflict: Multipliers  # (N, ...), those of the excess over the ceilings where they are unreachable, 0 elsewhere
 
     def counting(self, statement: Statement, objective: Real) -> "Optima":
-        """With the mass proven for all that come to no more than what is returned (N,): a limit that was counted with
-        may be below that, and then says nothing of it."""
+        """With the mass proven for all that come to no more than what is returned (N,). A limit that was counted with
+        may be below that, and then proves nothing."""
         more = np.maximum(objective - self.mass_target, 0.0)
         if not more.any():
             return self

@@ -1,8 +1,8 @@
 """Counterweights that nearly vanish, or nearly touch a limit, exactly there: no dust, and limits to the last digit.
 
 An interior point ends inside all limits. Masses that are small beside the others are taken away, and those next to a
-limit are put there. The counterweights between their limits make up for it by the least change, relative to
-their size, that leaves every term of the objective and every response under a ceiling as it was.
+limit are put there. The counterweights between their limits make up for it by the least change, relative to their size.
+It leaves every term of the objective and every response under a ceiling as it was.
 """
 
 import numpy as np

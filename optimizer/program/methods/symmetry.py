@@ -1,9 +1,9 @@
 """The most symmetric of equally good counterweights: the mean over what leaves the program as it is.
 
 Such a symmetry sends the unbalances to g u_p(k), or to their mirror images g conj(u)_p(k), with a permutation p of the
-webs and a turn g: among webs in one place, from end to end, and at the plane in which everything stands. Every term
-keeps its size and every counterweight its mass. Sizes are convex, so no term of the mean is larger, and neither is
-the mass (docs/mathematics.md section 9).
+webs and a turn g. These are sought among webs in one place, from end to end, and at the plane in which everything
+stands. Every term keeps its size and every counterweight its mass. Sizes are convex, so no term of the mean is larger,
+and neither is the mass (docs/mathematics.md section 9).
 """
 
 from functools import cache, lru_cache

@@ -100,7 +100,7 @@ class Ladder(NamedTuple):
 
 
 def at_rest(request: AccuracyRequest, scene: Prepared) -> Judge:
-    """The program of any masses, of the worst case where there is more than the machine as it is given; plates are not
+    """The program of any masses, of the worst case where there is more than the unchanged machine; plates are not
     opened yet, and reach as far as they can."""
     task = Task.of(request)
     if task.robust or task.objective.of_the_revolution:

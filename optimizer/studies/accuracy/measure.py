@@ -110,7 +110,7 @@ def _method_fields(request: AccuracyRequest, scene: Prepared) -> dict[str, objec
 
 
 def _nominal_fields(request: AccuracyRequest, task: Task, scene: Prepared) -> dict[str, object]:
-    """Those of a machine as it is given."""
+    """Those of the unchanged machine, nothing off."""
     statement = within_reach(cone_program(*task.space, scene.responses, scene.omega_squared))
     usable = statement.limits.reach > 0
     program = LadderProgram(statement.only(usable), _turn(request, scene).only(usable))
@@ -211,7 +211,7 @@ class Best(NamedTuple):
 
 
 def _best(statement: Statement) -> Best | None:
-    """That of a machine as it is given; None where no counterweights keep the ceilings."""
+    """That of the unchanged machine, nothing off; None where no counterweights keep the ceilings."""
     result = optima(statement.alone(), SHARPEST, False).single()
     if result.conflict is not None:
         return None

@@ -3,7 +3,7 @@
 The steps are the nominal optimum, a scenario by itself, the scenarios that are worst at the optimum of the step before,
 the corner of the masses that is worst by the derivatives, the corners that are worst at the optimum of the step before,
 and the whole worst case with its proof. What a step leaves out only lowers its objective, so that its bound is one of
-the worst case too. The machine as it is given may be none of the scenarios: beside these its optimum proves nothing.
+the worst case too. The unchanged machine may be none of the scenarios: beside these its optimum proves nothing.
 """
 
 from collections.abc import Callable, Iterator, Sequence
@@ -55,7 +55,7 @@ def whole_problem(task: Task, scene: Prepared) -> Problem:
 
 
 def uncertain_methods(steps: "Steps", judge: JudgeOfNorms) -> Iterator[Method]:
-    """All methods: the steps to the worst case, then those of a machine as it is given.
+    """All methods: the steps to the worst case, then those of the unchanged machine.
 
     Parameters
     ----------
@@ -87,7 +87,7 @@ def uncertain_methods(steps: "Steps", judge: JudgeOfNorms) -> Iterator[Method]:
 def parts(steps: "Steps") -> Iterator[Method]:
     """The steps that see a part of the worst case."""
     scenarios = steps.task.scenarios
-    # without scenarios the machine as it is given is a part of what may be
+    # without scenarios the unchanged machine is a part of what may be
     proves = not scenarios
     yield Method("nominal", "nothing off", steps.run(SHARPEST, steps.nominal, proves))
     for n, scenario in enumerate(scenarios if len(scenarios) > 1 else ()):
@@ -196,7 +196,7 @@ class Steps:
         def run(task: LadderProgram, position: float, time_limit_s: float) -> MethodResult | str:
             result = step(self.robust(gap, time_limit_s))
             if isinstance(result, Conflict):
-                return _UNREACHABLE if proves else f"{_UNREACHABLE} of the machine as it is given"
+                return _UNREACHABLE if proves else f"{_UNREACHABLE} of the unchanged machine"
             return self.result(result, proves)
 
         return lambda: run

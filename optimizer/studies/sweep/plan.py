@@ -46,7 +46,7 @@ _SMALLEST_CHUNK = 64
 #: bytes of a cell in Parquet: numbers hardly compress, texts nearly vanish
 _CELL_BYTES = {"number": 8.6, "integer": 1.5, "text": 0.2}
 #: bytes of a file for itself, and for each of its columns besides their name, which stands there three times
-_FILE_BYTES, _COLUMN_BYTES, _NAMED = 500, 220, 3
+_FILE_BYTES, _COLUMN_BYTES, _NAME_COPIES = 500, 220, 3
 #: a file takes whole blocks of a disk
 _BLOCK_BYTES = 4096
 
@@ -99,7 +99,7 @@ class Plan:
     def _bytes(self) -> int:
         """On disk: the chunks, the selection as far as its size is predictable, and the request."""
         rows = sum(_CELL_BYTES[column.kind] for column in self.columns)
-        columns = sum(_COLUMN_BYTES + _NAMED * len(column.name.encode()) for column in self.columns)
+        columns = sum(_COLUMN_BYTES + _NAME_COPIES * len(column.name.encode()) for column in self.columns)
         size = self.chunk_rows * rows + _FILE_BYTES + columns
         return round(
             self.chunks * -(-size // _BLOCK_BYTES) * _BLOCK_BYTES

@@ -126,7 +126,7 @@ def _as_text(best: Solution | Infeasible) -> str:
 
 
 def _nominal_proof(price: object) -> NominalProof | None:
-    """What proves the optimum of the machine as it is given, where a price has it."""
+    """What proves the optimum of the unchanged machine, where a price has it."""
     if not isinstance(price, PriceOfRobustness) or not price.nominal_counterweights:
         return None
     return NominalProof(

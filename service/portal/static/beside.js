@@ -31,7 +31,7 @@ export function beside(answer) {
   }
   if (worst) {
     const rows = [["peak force, N", worst.force_peak_N], ["peak moment, N m", worst.moment_peak_Nm], ...(worst.responses ?? []).map((one) => [`peak ${one.label}, ${one.unit}`, one.peak]),
-      ["largest bearing load, N", worst.bearing_peak_N], ["objective", worst.objective], ["best for the machine as given, there", price?.nominal_optimum_worst_case]];
+      ["largest bearing load, N", worst.bearing_peak_N], ["objective", worst.objective], ["best for the unchanged machine, there", price?.nominal_optimum_worst_case]];
     found.push(table("In the worst of all cases", ["what", "at most"], rows.filter(([, value]) => value !== null && value !== undefined).map(([name, value]) => [name, number(value)])));
   }
   if (sensitivity) {

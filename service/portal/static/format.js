@@ -20,9 +20,15 @@ export const beside = (value, scale) => figure(Math.abs(value) < 1e-9 * Math.abs
 
 export const number = (value, digits) => ({ number: true, text: figure(value, digits) });
 
+// an angle to a ten-thousandth of a degree, as in the report: nothing is set or read more finely
+export const degrees = (value) => number(value && Math.round(1e4 * value) / 1e4);
+
 export const share = (value) => (value > 0 && value < 1e-7 ? "less than 0.00001 %" : `${figure(100 * value, 2)} %`);
 
 export const label = (name) => name.replace(SUFFIX, "").replaceAll("_", " ");
+
+// what a field is, for people: null is a field that is left empty
+export const hint = (about) => about.replace(/\bnull\b/g, "empty").replace(/\bNull\b/g, "Empty");
 
 export const singular = (name) => label(name).replace(/s$/, "");
 

@@ -1,7 +1,7 @@
 // The counterweights as a workshop makes them: where each sits, how heavy, how large, and at which angle to its own crank.
 
 import { table } from "./dom.js";
-import { figure, number } from "./format.js";
+import { degrees, figure, number } from "./format.js";
 
 const millimetres = (metres) => number(metres === null || metres === undefined ? null : 1000 * metres);
 
@@ -16,6 +16,6 @@ export function order(counterweights, shaft = null, title = "Counterweights to f
   return table(`${title}${shaft ? ` to balance shaft ${shaft}` : ""}`,
     ["web", "mass, kg", "plane, mm", "radius, mm", "from own crank, °", "as drawn, °", "shape, mm"],
     counterweights.map((one) => (one.mass_kg > 0
-      ? [one.web, number(one.mass_kg), millimetres(one.position_m), millimetres(one.radius_m), number(one.angle_from_crank_deg), number(one.angle_deg), shaped(one)]
+      ? [one.web, number(one.mass_kg), millimetres(one.position_m), millimetres(one.radius_m), degrees(one.angle_from_crank_deg), degrees(one.angle_deg), shaped(one)]
       : [one.web, { number: true, text: "none" }, millimetres(one.position_m), number(null), number(null), number(null), shaped(one)])));
 }

@@ -3,7 +3,7 @@
 from schemas.front.counts import CountFront, CountPoint
 from service.report.blocks import Block, Cell, Number, table
 
-_COUNTED = {
+_COUNT_NAMES = {
     "weights": "counterweights",
     "part_numbers": "part numbers",
     "pieces": "counterweights",
@@ -14,7 +14,7 @@ _VALUE = {"objective": "#objective", "mass": "#minimum mass, kg"}
 
 def count_table(front: CountFront) -> Block:
     """A row for every number."""
-    heads = [f"#at most, {_COUNTED[front.of]}", _VALUE[front.least], "#proven at least", "#relative gap"]
+    heads = [f"#at most, {_COUNT_NAMES[front.of]}", _VALUE[front.least], "#proven at least", "#relative gap"]
     heads += ["#peak force, N", "#peak moment, N m"]
     heads += ["#mass on the crankshaft, kg", "#on balance shafts, kg"] if _geared(front) else ["#mass, kg"]
     heads += ["#counterweights", "#part numbers", ""]

@@ -22,7 +22,7 @@ _REASONS: dict[Reason, str] = {
 
 _WORST = (
     "Weighted peaks are those of the worst case of all scenarios, with everything off that may be: they are traded."
-    " Peak force and moment are those of the machine as it is given."
+    " Peak force and moment are those of the unchanged machine."
 )
 
 
@@ -98,7 +98,7 @@ def _trade(request: ParetoRequest, trade: TradedFront) -> Iterator[Block]:
             (str(index), *(point.nominal_values or ())) for index, point in enumerate(trade.points)
         ]
         yield Paragraph("The values above are those of the worst case.")
-        yield table("As the machine is given, nothing off", ["point", *heads], nominal)
+        yield table("Unchanged machine, nothing off", ["point", *heads], nominal)
     if trade.reason is not None:
         yield Paragraph("All are smallest at the same counterweights: nothing has to be traded.")
 

@@ -15,7 +15,7 @@ from service.report.chapters.verification import TIMES, Check
 #: characters of a line of the listing
 _LINE = 130
 #: characters of a logo that are listed
-_SHOWN = 40
+_LOGO_LENGTH = 40
 #: fields that are the document's own, and no part of the optimisation
 _DOCUMENTS = ("document", "versions")
 _PACKAGES = ("numpy", "scipy", "clarabel", "cvxpy")
@@ -59,7 +59,7 @@ def _without_pixels(fields: dict[str, Any]) -> dict[str, Any]:
     head = fields.get("document", {})
     if head.get("logo") is None:
         return fields
-    return {**fields, "document": {**head, "logo": f"{head['logo'][:_SHOWN]}..."}}
+    return {**fields, "document": {**head, "logo": f"{head['logo'][:_LOGO_LENGTH]}..."}}
 
 
 def _lines(value: Any, room: int, before: int = 0) -> Iterator[str]:

@@ -75,7 +75,7 @@ def _certified(request: OptimizeRequest, answer: OptimizeAnswer) -> Paragraph:
     left = " It is what this goal leaves to those after it, at most its allowance." if costs else ""
     return Paragraph(
         "Certified: no counterweights within these limits bring the objective below "
-        f"{prose(proof.lower_bound)}, and those below reach {prose(proof.objective)}. The difference is "
+        f"{prose(proof.lower_bound)}, and those listed reach {prose(proof.objective)}. The difference is "
         f"{_percent(proof.relative_gap)} of the objective without counterweights.{left}",
         "key",
     )

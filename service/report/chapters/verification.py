@@ -18,7 +18,7 @@ TIMES = ("timing", "effects")
 #: characters of a digest that are printed beside a figure; all of them stand in the appendix
 SHORT = 16
 #: names of what is not covered that are printed in a line
-_SHOWN = 6
+_MOST_NAMES = 6
 
 
 def verified(answer: VerifyAnswer) -> Iterator[Chapter]:
@@ -78,8 +78,8 @@ def sentence(outcome: Check, request: str) -> Paragraph:
         return Paragraph(f"{count}, and every one holds. {digests}")
     open_claims = (claim.where for claim in result.claims if claim.verdict == "not covered")
     names = [*dict.fromkeys(map(_words, (*open_claims, *result.not_covered)))]
-    more = f" and {len(names) - _SHOWN} more" if len(names) > _SHOWN else ""
-    return Paragraph(f"{count}; nothing is broken. Not covered: {', '.join(names[:_SHOWN])}{more}. {digests}")
+    more = f" and {len(names) - _MOST_NAMES} more" if len(names) > _MOST_NAMES else ""
+    return Paragraph(f"{count}; nothing is broken. Not covered: {', '.join(names[:_MOST_NAMES])}{more}. {digests}")
 
 
 def _words(pointer: str) -> str:

@@ -21,7 +21,7 @@ from service.tables.whole_mass import whole_mass
 
 #: differences of a version that are listed; of more it is said how many there are
 _MOST = 30
-_THIS = "this one"
+_OWN_NAME = "this one"
 _MISSING = object()
 
 
@@ -46,7 +46,7 @@ def compared(request: ReportRequest, answer: OptimizeAnswer) -> Iterator[Chapter
     if not request.versions:
         return
     columns = [
-        _optimum(_THIS, answer),
+        _optimum(_OWN_NAME, answer),
         *(_column(request, place) for place in range(len(request.versions))),
     ]
     yield Chapter("Versions compared", (_figures(columns), _weights(columns), *_differences(request)))

@@ -28,10 +28,10 @@ def worst_case(answer: OptimizeAnswer) -> Iterator[Chapter]:
         blocks.append(
             table(
                 "The objective, and what the worst case costs",
-                ["counterweights", "#as the machine is given", "#in the worst case"],
+                ["counterweights", "#unchanged machine", "#in the worst case"],
                 [
                     ("those above", price.nominal, worst.objective),
-                    ("best for the machine as given", price.nominal_optimum, price.nominal_optimum_worst_case),
+                    ("best for the unchanged machine", price.nominal_optimum, price.nominal_optimum_worst_case),
                 ],
             )
         )
@@ -59,7 +59,7 @@ def stated_cases(request: OptimizeRequest, subject: str = "objective") -> Iterat
                 (scenario.name, scenario.weight, *change)
                 for scenario in (case.scenario for case in request.cases)
                 for change in (
-                    [(field.path, field.value) for field in scenario.changes] or [("the machine as it is given", None)]
+                    [(field.path, field.value) for field in scenario.changes] or [("the unchanged machine", None)]
                 )
             ],
         )

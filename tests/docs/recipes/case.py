@@ -23,8 +23,8 @@ chosen = machine | {"catalogue": {"masses_kg": [1.5, 3], "angle_step_deg": 30}}
 ends = [{"name": name, "changes": [{"path": "/machine/speed_rpm", "value": band[name]}]} for name in band]
 
 
-def near(value, expected, size=fast):
-    assert abs(value - expected) < 2e-6 * size, (value, expected)
+def near(figure, expected, size=fast):
+    assert abs(figure - expected) < 2e-6 * size, (figure, expected)
 
 
 with TestClient(create_app(Settings(), warm=False)) as client:

@@ -64,7 +64,7 @@ with TestClient(create_app(Settings(), warm=False)) as client:
 
     # independent: every set of castings, each fitted by hand
     optimum, every = ask(machine), list(by_hand(machine))
-    least = min(objective(value) for _, value in every)
+    least = min(objective(answer) for _, answer in every)
     assert abs(objective(optimum) - least) < 1e-9 * least, (objective(optimum), least)
     for fitted, own in zip(optimum["counterweights"], castings, strict=True):
         assert fitted["mass_kg"] == 0 or {"mass_kg": fitted["mass_kg"], "angle_deg": fitted["angle_deg"]} in own, fitted
@@ -75,7 +75,7 @@ with TestClient(create_app(Settings(), warm=False)) as client:
         {"moment_weight": 0, "moment_ceiling_Nm": 1.02 * peak},
     ):
         least = min(
-            objective(entry) for _, entry in by_hand(machine, objective=goal) if entry["status"] != "infeasible"
+            objective(answer) for _, answer in by_hand(machine, objective=goal) if answer["status"] != "infeasible"
         )
         reached = objective(ask(machine, objective=goal))
         assert abs(reached - least) < 2e-6 * least, (goal, reached, least)
@@ -88,7 +88,7 @@ with TestClient(create_app(Settings(), warm=False)) as client:
     assert abs(reached - least) < 1e-9 * least, (reached, least)
     faster = [{"name": "faster", "changes": [{"path": "/machine/speed_rpm", "value": 700}]}]
     for more in ({"scenarios": faster}, {"tolerances": {"unbalance_kg_m": 0.01}}):
-        least = min(entry["worst_case"]["objective"] for _, entry in by_hand(machine, **more))
+        least = min(answer["worst_case"]["objective"] for _, answer in by_hand(machine, **more))
         reached = ask(machine, **more)["worst_case"]["objective"]
         assert abs(reached - least) < 2e-6 * least, (more, reached, least)
     most = objective(optimum) + 0.3 * optimum["certificate"]["objective_without_counterweights"]

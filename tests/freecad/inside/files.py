@@ -52,7 +52,7 @@ def read(path):
 
 def inertia_values(counterweight):
     parts = counterweight.static_kg_m, counterweight.axial_kg_m2
-    return [counterweight.mass_kg, *(value for part in parts for value in (part.real, part.imag))]
+    return [counterweight.mass_kg, *(component for part in parts for component in (part.real, part.imag))]
 
 
 def centre(shapes):

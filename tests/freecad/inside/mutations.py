@@ -39,8 +39,8 @@ def main():
 def value_of(subject, name):
     if hasattr(subject, "getContents"):
         return subject.getContents(name)
-    value = getattr(subject, name)
-    return getattr(value, "Value", value)
+    attribute = getattr(subject, name)
+    return getattr(attribute, "Value", attribute)
 
 
 def apply(document, changes):

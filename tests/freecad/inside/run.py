@@ -13,9 +13,9 @@ import traceback
 def main():
     sys.path.insert(0, os.environ["INSIDE"])
     try:
-        value = importlib.import_module(os.environ["SCRIPT"]).main()
+        report = importlib.import_module(os.environ["SCRIPT"]).main()
         with open(os.environ["FOUND"], "w") as file:
-            json.dump(value, file)
+            json.dump(report, file)
     except BaseException:
         traceback.print_exc(file=sys.stdout)
         sys.stdout.flush()

@@ -19,9 +19,9 @@ ENDS = (-485.0, -315.0, -245.0, -105.0, -35.0, 35.0, 105.0, 245.0, 315.0, 485.0)
 def native(document):
     """Nine parametric bodies, driven by a spreadsheet."""
     sheet = document.addObject("Spreadsheet::Sheet", "Parameters")
-    for row, (alias, value) in enumerate((("crank_radius", RADIUS), ("pin_radius", PIN)), start=1):
+    for row, (alias, length) in enumerate((("crank_radius", RADIUS), ("pin_radius", PIN)), start=1):
         sheet.set(f"A{row}", alias)
-        sheet.set(f"B{row}", f"={value} mm")
+        sheet.set(f"B{row}", f"={length} mm")
         sheet.setAlias(f"B{row}", alias)
     document.recompute()
     bodies = []
@@ -96,6 +96,6 @@ def web(low, high, angle_deg):
     """An oblong plate from the axis to the pin."""
     across = Part.makeBox(RADIUS, 2 * WEB_END, high - low, App.Vector(0, -WEB_END, low))
     ends = [Part.makeCylinder(WEB_END, high - low, App.Vector(x, 0, low)) for x in (0.0, RADIUS)]
-    value = ends[0].multiFuse([ends[1], across]).removeSplitter()
-    value.rotate(App.Vector(), App.Vector(0, 0, 1), angle_deg)
-    return value
+    solid = ends[0].multiFuse([ends[1], across]).removeSplitter()
+    solid.rotate(App.Vector(), App.Vector(0, 0, 1), angle_deg)
+    return solid

@@ -98,9 +98,13 @@ def shaft_numbers(answer: ShaftAnswer, mirrored: bool = False) -> list[list[floa
         [cos(angle) for angle in circle],
         [sin(angle) for angle in circle],
         [web.position_m for web in answer.webs],
-        [value for web in answer.webs for value in (web.envelope.inner_radius_m, web.envelope.outer_radius_m)],
+        [radius for web in answer.webs for radius in (web.envelope.inner_radius_m, web.envelope.outer_radius_m)],
         [web.envelope.thickness_m for web in answer.webs],
-        [value for bearing in answer.bearings for value in (bearing.position_m, bearing.length_m, bearing.diameter_m)],
+        [
+            length
+            for bearing in answer.bearings
+            for length in (bearing.position_m, bearing.length_m, bearing.diameter_m)
+        ],
     ]
 
 
@@ -114,7 +118,7 @@ def test_it_does_not_matter_where_the_shaft_is_and_how_large(
     content, drawn = read(faces, frame=frame), read(drawing.faces(), frame=FRAME)
     lengths = [scale, scale, 1.0, 1.0, scale, scale, scale, scale]
     for figure, second_figure, factor in zip(shaft_numbers(content), shaft_numbers(drawn), lengths, strict=True):
-        assert figure == pytest.approx([factor * value for value in second_figure], abs=1e-11 * scale)
+        assert figure == pytest.approx([factor * coordinate for coordinate in second_figure], abs=1e-11 * scale)
     assert codes(content) == codes(drawn)
     # without a frame it is found: the axis is the turned one, the throws are at the same distances
     alone = read(faces)
@@ -284,7 +288,9 @@ def test_the_unbalance_of_bodies_is_that_of_their_points(bodies: list[Json], tur
     places = [unbalance.position_m for unbalance in answer.unbalances]
     assert places == [-0.4, 0.6]
     assert sum(values) == pytest.approx(first, abs=1e-10 * total)
-    assert sum(z * value for z, value in zip(places, values, strict=True)) == pytest.approx(second, abs=1e-10 * total)
+    assert sum(z * unbalance for z, unbalance in zip(places, values, strict=True)) == pytest.approx(
+        second, abs=1e-10 * total
+    )
     assert answer.rotor is not None
     assert answer.rotor.mass_kg == pytest.approx(total)
     assert answer.rotor.unbalance_kg_m == pytest.approx(abs(first), abs=1e-10 * total)

@@ -52,8 +52,8 @@ def solved(outcome: matrices.RivalPoint | NoPoint) -> matrices.RivalPoint:
 def test_the_worst_grid_misses_a_peak_by_its_half_step(angles: int) -> None:
     """Analytic: with equal phasors |F| = 2 |cos(theta - a)|, and a grid half a step beside the peak sees cos(pi/n)."""
     task = single(1.0, 1.0, 0.0 + 1e-9)
-    value = solved(sampled(task.statement, task.turn, angles, 0.5, 5.0)).claimed
-    assert value == pytest.approx(2.0 * np.cos(np.pi / angles), abs=1e-7)
+    claim = solved(sampled(task.statement, task.turn, angles, 0.5, 5.0)).claimed
+    assert claim == pytest.approx(2.0 * np.cos(np.pi / angles), abs=1e-7)
 
 
 @given(st.sampled_from(ANGLES), st.sampled_from(POSITIONS), st.floats(0.0, 6.3), st.floats(0.0, 2.0))
@@ -225,8 +225,8 @@ def test_the_first_of_a_batch_is_the_program_itself(case: int) -> None:
     lighter = _lighter(task.statement, share)
     half = np.full(task.statement.limits.radius.size, 0.01 + 0.02j)
     # analytic: a machine with a share of the masses, at that share of the unbalance
-    value = task.statement.objective(half)
-    assert lighter.objective(share[:, None] * half) == pytest.approx(share * value, rel=1e-13)
+    objective = task.statement.objective(half)
+    assert lighter.objective(share[:, None] * half) == pytest.approx(share * objective, rel=1e-13)
     np.testing.assert_allclose(
         lighter.ceilings.excess(share[:, None] * half), [task.statement.ceilings.excess(half)] * 2, rtol=1e-9
     )

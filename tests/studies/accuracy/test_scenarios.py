@@ -22,7 +22,7 @@ Post = Callable[..., Any]
 
 
 def several(machine: dict[str, Any]) -> list[dict[str, Any]]:
-    """The machine as it is, one that is faster with a heavier row, and a light one that decides nothing."""
+    """The unchanged machine, one that is faster with a heavier row, and a light one that decides nothing."""
     mass = machine["throws"][0]["rows"][0]["reciprocating_mass_kg"]
     row = "/machine/throws/0/rows/0/reciprocating_mass_kg"
     faster = {"path": "/machine/speed_rpm", "value": 1.1 * machine["speed_rpm"]}
@@ -58,7 +58,7 @@ def test_between_two_turning_masses_each_is_off_by_half() -> None:
 
 
 def test_the_nominal_optimum_proves_nothing_beside_scenarios() -> None:
-    """Analytic: the machine as it is given is none of two heavier ones, and its optimum may be above theirs."""
+    """Analytic: the unchanged machine is none of two heavier ones, and its optimum may be above theirs."""
     measurement = measured(turning(max_mass_kg=5.0), scenarios=_speeds(0.1, 0.2))
     nominal = by_name(measurement)["nominal", "nothing off"]
     assert nominal.claim_error is not None

@@ -79,8 +79,8 @@ def test_the_ladder_stands_on_the_worst_case_of_the_service(tolerances: dict[str
     if goal == {}:
         # of the largest of peaks there are many nominal optima
         assert bound + nominal.relative_error * rest == pytest.approx(price.nominal_optimum_worst_case, rel=1e-6)
-    value = bound + (nominal.relative_error + nominal.claim_error) * rest
-    assert value == pytest.approx(price.nominal_optimum, rel=1e-8)
+    claim = bound + (nominal.relative_error + nominal.claim_error) * rest
+    assert claim == pytest.approx(price.nominal_optimum, rel=1e-8)
     for row in measurement.ladder:
         if row.skipped is None:
             assert row.relative_error is not None

@@ -57,7 +57,7 @@ def cases() -> Iterator[Case]:
 def answer(case: Case, seed: int, without: tuple[str, ...]) -> MatchAnswer:
     """The answer without some of the methods."""
     nothing: dict[str, Any] = {
-        "exhausted": lambda _, cut, value, *rest: Exhausted(None, value, cut.least, False),
+        "exhausted": lambda _, cut, objective, *rest: Exhausted(None, objective, cut.least, False),
         "near_to_nothing": lambda _, mass, *rest: mass,
     }
     with pytest.MonkeyPatch.context() as patch:

@@ -43,8 +43,8 @@ def on_webs(design: Machine, **fields: Any) -> Machine:
 
 def cut(design: Machine) -> Machine:
     plate = {"shape": "sector", "inner_radius_m": 0.05, "outer_radius_m": 0.14, "thickness_m": 0.02}
-    entry = ("name", "position_m", "throw")
-    return design | {"webs": [{name: web[name] for name in entry} | {"envelope": plate} for web in design["webs"]]}
+    fields = ("name", "position_m", "throw")
+    return design | {"webs": [{name: web[name] for name in fields} | {"envelope": plate} for web in design["webs"]]}
 
 
 def fixed(design: Machine) -> Machine:

@@ -108,8 +108,8 @@ def test_with_chosen_ones_it_is_the_best_of_all(
     size = answer.certificate.yardstick
     assert answer.status == "optimal"
     assert answer.certificate.lower_bound is not None
-    assert answer.certificate.lower_bound <= min(value for _, value in alone) + 1e-6 * size
-    assert answer.certificate.objective <= min(value for _, value in alone) + 1.1e-3 * size
+    assert answer.certificate.lower_bound <= min(objective for _, objective in alone) + 1e-6 * size
+    assert answer.certificate.objective <= min(objective for _, objective in alone) + 1.1e-3 * size
     assert answer.certificate.objective >= min(bound for bound, _ in alone) - 1e-6 * size
     fitted = answer.balance_shafts[0].counterweights
     assert all(

@@ -24,8 +24,8 @@ def test_it_is_that_of_all_mixtures(rows: int, classes: int) -> None:
     relaxed = cp.Problem(cp.Minimize(cp.sum(cp.abs(problem.start + problem.of_place @ masses))), once)
     relaxed.solve(solver=cp.CLARABEL)
     mass = searched(problem, problem.peaks, problem.input_order[None])[0]
-    value = float(problem.peaks.at(problem.vectors(mass)))
-    number = best_plane(problem, problem.peaks, value, 0.0).least
+    objective = float(problem.peaks.at(problem.vectors(mass)))
+    number = best_plane(problem, problem.peaks, objective, 0.0).least
     assert number <= relaxed.value * (1 + 1e-6)
-    assert relaxed.value - number <= 1e-3 * value
-    assert number <= value
+    assert relaxed.value - number <= 1e-3 * objective
+    assert number <= objective

@@ -54,7 +54,7 @@ def test_two_classes_of_six_are_the_best_of_all() -> None:
     orders = [np.array(list(permutations(single_class["masses_kg"]))) for single_class in classes]
     sums = [objective_vectors(design, some) for some in orders]
     base = objective_vectors(design, np.full(6, 12.0))
-    least = min(float(np.min(np.sum(np.abs(base + sums[0] + value), axis=-1) * 2.0)) for value in sums[1])
+    least = min(float(np.min(np.sum(np.abs(base + sums[0] + sums_of_half), axis=-1) * 2.0)) for sums_of_half in sums[1])
     assert answer.certificate.objective == pytest.approx(least * RADIUS * OMEGA**2, rel=1e-9)
     assert answer.certificate.method == "exhaustion"
 

@@ -58,9 +58,9 @@ def test_it_is_the_best_of_all_orders(cranks: list[float], axes: list[float], go
     orders = problem.input_order[np.array(list(permutations(range(len(cranks)))))]
     values = np.sort(problem.peaks.at(problem.vectors(orders)))
     for rank in (len(values) // 100, 20):
-        value = float(values[min(rank, len(values) - 1)])
-        cut = best_plane(problem, problem.peaks, value, 0.0)
-        optimum = exhausted(problem, cut, value, 0.0, never)
+        level = float(values[min(rank, len(values) - 1)])
+        cut = best_plane(problem, problem.peaks, level, 0.0)
+        optimum = exhausted(problem, cut, level, 0.0, never)
         assert optimum.lower_bound <= values[0] + problem.rounding
         if optimum.complete:
             assert optimum.value == pytest.approx(values[0], abs=problem.rounding)

@@ -308,10 +308,10 @@ def test_a_figure_that_is_made_up_is_broken(path: tuple[str | int, ...]) -> None
     del place[path[-1]]
     tools = checker()
     try:
-        verdict = {claim["verdict"] for claim in tools.verify(body, answer)["claims"]}
+        judgements = {claim["verdict"] for claim in tools.verify(body, answer)["claims"]}
     except tools.Unreadable:
         return
-    assert verdict != {"held"}
+    assert judgements != {"held"}
 
 
 def test_a_table_says_what_every_shaft_carries() -> None:

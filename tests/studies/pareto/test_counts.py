@@ -216,7 +216,7 @@ def test_numbers_for_the_whole_turn(of: str) -> None:
     machine = choices.twin()
     chosen, u = choices.every_set(machine)
     loads = choices.Loads(machine).peak(u)
-    used = np.array([_used(entry, of) for entry in chosen])
+    used = np.array([_used(choice, of) for choice in chosen])
     count_front = front(
         choices.request_body(machine, bearing_weight=1, force_weight=0, moment_weight=0), of, "objective"
     )
@@ -238,8 +238,8 @@ def test_the_least_mass_for_the_whole_turn(of: str) -> None:
     chosen, u = choices.every_set(machine)
     loads = choices.Loads(machine).peak(u)
     used, mass = (
-        np.array([_used(entry, of) for entry in chosen]),
-        np.array([sum(m for m, _ in entry) for entry in chosen]),
+        np.array([_used(choice, of) for choice in chosen]),
+        np.array([sum(m for m, _ in choice) for choice in chosen]),
     )
     # between two loads, so that angles in between tell nothing else
     ordered = np.unique(loads)

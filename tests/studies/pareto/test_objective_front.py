@@ -78,10 +78,10 @@ def test_of_choices_no_set_beats_a_point(names: tuple[str, str]) -> None:
     place = names.index("objective")
     size = traded_front.responses[place].yardstick
     for point in traded_front.points:
-        value, mass = point.values[place], point.values[1 - place]
-        assert np.min(np.max(np.abs((every - (value, mass)) / (size, 1.0)), axis=-1)) < 1e-9
+        figure, mass = point.values[place], point.values[1 - place]
+        assert np.min(np.max(np.abs((every - (figure, mass)) / (size, 1.0)), axis=-1)) < 1e-9
         within = every[every[:, 1] <= mass * (1 + 1e-9)]
-        assert value <= np.min(within[:, 0]) + 1e-5 * size
+        assert figure <= np.min(within[:, 0]) + 1e-5 * size
         corner = point.certificate.corner[place]
         assert corner is not None
         assert corner <= np.min(within[:, 0]) + 1e-9 * size

@@ -28,7 +28,7 @@ def weighted_ends(body: dict[str, Any], **objective: float) -> tuple[float, floa
     return answer.certificate.objective, answer.certificate.lower_bound
 
 
-def check(pareto_front: ParetoFront, value: float = 1e-6) -> None:
+def check(pareto_front: ParetoFront, gap: float = 1e-6) -> None:
     """What every front promises about itself."""
     assert pareto_front.scale is not None
     assert pareto_front.ends is not None
@@ -54,7 +54,7 @@ def check(pareto_front: ParetoFront, value: float = 1e-6) -> None:
         assert proof.mass_lower_bound_kg is not None
         assert proof.mass_lower_bound_kg <= point.total_mass_kg
         assert proof.mass_relative_gap is not None
-        honest = proof.relative_gap <= value and proof.mass_relative_gap <= MASS_GAP
+        honest = proof.relative_gap <= gap and proof.mass_relative_gap <= MASS_GAP
         assert (point.status == "optimal") == honest
         total = sum(counterweight.mass_kg for counterweight in point.counterweights)
         assert point.total_mass_kg == pytest.approx(total, rel=1e-14)
@@ -173,10 +173,10 @@ def test_without_least_mass_nothing_is_claimed_about_it() -> None:
         assert point.total_mass_kg >= light.total_mass_kg * (1 - 1e-3)
 
 
-@pytest.mark.parametrize("value", part(2, [1e-3, 1e-6, 1e-8]))
-def test_the_asked_gap_is_reached(value: float) -> None:
-    pareto_front = front(four_webs(), points=5, accuracy={"relative_gap": value})
-    check(pareto_front, value)
+@pytest.mark.parametrize("gap", part(2, [1e-3, 1e-6, 1e-8]))
+def test_the_asked_gap_is_reached(gap: float) -> None:
+    pareto_front = front(four_webs(), points=5, accuracy={"relative_gap": gap})
+    check(pareto_front, gap)
     assert pareto_front.status == "optimal"
 
 

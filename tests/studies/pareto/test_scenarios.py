@@ -43,7 +43,7 @@ def test_a_light_and_a_heavy_machine() -> None:
     peaks = np.array([traded(point) for point in answer.points]) / OMEGA_SQUARED
     assert peaks == pytest.approx(np.stack([1.5 - x, 2.0 * x], axis=-1), abs=6e-6)
     for point, there in zip(answer.points, x, strict=True):
-        # the machine as it is given is in none of them
+        # the unchanged machine is in none of them
         assert point.force_peak_N / OMEGA_SQUARED == pytest.approx(1.0 - there, abs=3e-6)
         assert point.worst_case is not None
         worst_peaks = (point.worst_case.force_peak_N, point.worst_case.moment_peak_Nm)
@@ -87,19 +87,19 @@ def test_no_best_worst_case_is_below_the_front(seed: int, first: int, exponent: 
     scenarios = [scenario("as it is"), CASES[first](body), CASES[(first + 1) % 3](body)]
     request = {"machine": body, "points": 4, "scenarios": scenarios, "multipliers": True}
     answer = ask(body, points=4, scenarios=scenarios, multipliers=True)
-    (result,) = answer.fronts
-    assert result.scale is not None
+    (pareto,) = answer.fronts
+    assert pareto.scale is not None
     assert verdict(request, answer)["verdict"] == "held"
     goal = {
         "combine": "max",
-        "force_weight": 1.0 / result.scale.force_N,
-        "moment_weight": 10.0**exponent / result.scale.moment_Nm,
+        "force_weight": 1.0 / pareto.scale.force_N,
+        "moment_weight": 10.0**exponent / pareto.scale.moment_Nm,
     }
     best = answered(body, objective=goal, scenarios=scenarios)
     assert best.certificate is not None
-    for force, moment in map(traded, result.points):
-        value = max(goal["force_weight"] * force, goal["moment_weight"] * moment)
-        assert value >= best.certificate.lower_bound * (1 - 1e-12)
+    for force, moment in map(traded, pareto.points):
+        objective = max(goal["force_weight"] * force, goal["moment_weight"] * moment)
+        assert objective >= best.certificate.lower_bound * (1 - 1e-12)
     # of unit weights the worst case of that answer is what the front trades
     alike = [{**case, "weight": 1.0} for case in scenarios]
     plain, reply = front(body, points=4, scenarios=alike), answered(body, objective=goal, scenarios=alike)
@@ -156,14 +156,14 @@ def test_a_point_of_named_responses_is_the_best_worst_case_of_its_mass(
     body = twin()
     cases = [scenario("as it is"), scenario("fast", 0.9, speed_rpm=1.4 * body["speed_rpm"])]
     alone = {"force_weight": 0.0, "moment_weight": 0.0, "bearing_weight": 1.0} if "bearings" in responses else {}
-    (result,) = ask(body, points=3, scenarios=cases, tolerances=tolerances, responses=responses).trades
-    assert result.status == "optimal"
-    value, mass = result.points[1].values
+    (front,) = ask(body, points=3, scenarios=cases, tolerances=tolerances, responses=responses).trades
+    assert front.status == "optimal"
+    objective, mass = front.points[1].values
     best = answered({**body, "max_total_mass_kg": mass}, objective=alone, scenarios=cases, tolerances=tolerances)
     assert best.certificate is not None
-    assert value == pytest.approx(best.certificate.objective, abs=3e-6 * result.responses[0].yardstick)
-    assert result.points[1].nominal_values is not None
-    assert result.points[1].nominal_values[0] < value
+    assert objective == pytest.approx(best.certificate.objective, abs=3e-6 * front.responses[0].yardstick)
+    assert front.points[1].nominal_values is not None
+    assert front.points[1].nominal_values[0] < objective
 
 
 @pytest.mark.parametrize("least", ["objective", "mass"])
@@ -174,15 +174,15 @@ def test_counts_are_of_the_worst_scenario(least: str) -> None:
     body = {**machine(throws, [web("a", 0.3, 20.0, 0.2), web("b", 0.9, 20.0, 0.2)]), "catalogue": stock}
     cases = [scenario("as it is"), scenario("light", throws__0__rotating_mass_kg=20.0)]
     goal = {"force_ceiling_N": 2.5 * OMEGA_SQUARED, "moment_weight": 0.0}
-    (result,) = ask(body, scenarios=cases, objective=goal, counts={"of": "weights", "least": least}).counts
+    (front,) = ask(body, scenarios=cases, objective=goal, counts={"of": "weights", "least": least}).counts
     options = [(0.0, 0.0), *itertools.product((8.0, 14.0), (0.0, 90.0, 180.0, 270.0))]
     sets = np.array([*itertools.product(options, options)])
     mass, u = sets[..., 0], np.sum(0.2 * sets[..., 0] * np.exp(1j * np.deg2rad(sets[..., 1])), axis=-1)
     force = np.max(np.abs(np.array([[3.0 + 2.0j], [2.0 + 2.0j]]) + u), axis=0)
     values = force * OMEGA_SQUARED if least == "objective" else np.sum(mass, axis=-1)
-    assert [point.at_most for point in result.points][:2] == [0, 1]
-    assert result.points[0].status == "infeasible"
-    for point in result.points[1:]:
+    assert [point.at_most for point in front.points][:2] == [0, 1]
+    assert front.points[0].status == "infeasible"
+    for point in front.points[1:]:
         few = (np.sum(mass > 0, axis=-1) <= point.at_most) & (force <= 2.5)
         assert (point.status, point.value) == ("optimal", pytest.approx(np.min(values[few]), rel=1e-3))
 

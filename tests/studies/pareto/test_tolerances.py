@@ -48,7 +48,7 @@ def test_a_straight_front_with_an_error_of_its_counterweight() -> None:
     assert peaks[:, 0] == pytest.approx(1.0 - x + RHO * x, abs=3e-6)
     assert peaks[:, 1] == pytest.approx(2.0 * x * (1.0 + RHO), abs=6e-6)
     for point, there in zip(answer.points, x, strict=True):
-        # the machine as it is given has nothing off
+        # the unchanged machine has nothing off
         assert point.force_peak_N / OMEGA_SQUARED == pytest.approx(1.0 - there, abs=3e-6)
         assert point.moment_peak_Nm / OMEGA_SQUARED == pytest.approx(2.0 * there, abs=6e-6)
         assert point.worst_case is not None
@@ -92,10 +92,10 @@ def test_a_ceiling_holds_in_the_worst_case() -> None:
 def test_tolerances_of_nothing_are_none() -> None:
     plain, stated = front(straight(), points=3), front(straight(), points=3, tolerances={})
     assert [point.worst_case for point in plain.points] == [None] * 3
-    for item, position in zip(plain.points, stated.points, strict=True):
+    for nominal, position in zip(plain.points, stated.points, strict=True):
         assert position.worst_case is not None
-        assert (position.worst_case.force_peak_N, position.worst_case.moment_peak_Nm) == traded(item)
-        assert position.model_copy(update={"worst_case": None}) == item
+        assert (position.worst_case.force_peak_N, position.worst_case.moment_peak_Nm) == traded(nominal)
+        assert position.model_copy(update={"worst_case": None}) == nominal
 
 
 @given(SEEDS, st.sampled_from(TOLERANCES), st.floats(-2, 2))
@@ -105,21 +105,21 @@ def test_no_best_worst_case_is_below_the_front(seed: int, tolerances: dict[str, 
     body = random_machine(seed)
     request = {"machine": body, "points": 4, "tolerances": tolerances, "multipliers": True}
     answer = ask(body, points=4, tolerances=tolerances, multipliers=True)
-    (result,) = answer.fronts
-    assert result.scale is not None
+    (front,) = answer.fronts
+    assert front.scale is not None
     assert verdict(request, answer)["verdict"] in ("held", "not covered")
     goal = {
         "combine": "max",
-        "force_weight": 1.0 / result.scale.force_N,
-        "moment_weight": 10.0**exponent / result.scale.moment_Nm,
+        "force_weight": 1.0 / front.scale.force_N,
+        "moment_weight": 10.0**exponent / front.scale.moment_Nm,
     }
     best = answered(body, objective=goal, tolerances=tolerances)
     assert best.worst_case is not None
     assert best.certificate is not None
-    assert not below_a_corner(best.worst_case.force_peak_N, best.worst_case.moment_peak_Nm, result, 1e-12)
-    for force, moment in map(traded, result.points):
-        value = max(goal["force_weight"] * force, goal["moment_weight"] * moment)
-        assert value >= best.certificate.lower_bound * (1 - 1e-12)
+    assert not below_a_corner(best.worst_case.force_peak_N, best.worst_case.moment_peak_Nm, front, 1e-12)
+    for force, moment in map(traded, front.points):
+        objective = max(goal["force_weight"] * force, goal["moment_weight"] * moment)
+        assert objective >= best.certificate.lower_bound * (1 - 1e-12)
 
 
 @given(SEEDS, st.sampled_from(TOLERANCES))
@@ -167,9 +167,9 @@ def test_choices_are_those_that_no_other_beats_in_the_worst_case(tolerances: dic
 def test_force_against_mass() -> None:
     """Analytic: x = 0.2 m times the mass, F = 1 - x + rho x in the worst case, and 1 - x as it is given."""
     answer = ask(straight(), points=3, tolerances=OFF, responses=["force", "mass"])
-    (result,) = answer.trades
-    assert (answer.status, result.status) == ("optimal", "optimal")
-    for point in result.points:
+    (front,) = answer.trades
+    assert (answer.status, front.status) == ("optimal", "optimal")
+    for point in front.points:
         force, mass = point.values
         assert force / OMEGA_SQUARED == pytest.approx(1.0 - (1.0 - RHO) * 0.2 * mass, abs=3e-6)
         assert point.nominal_values is not None
@@ -184,14 +184,14 @@ def test_a_point_of_named_responses_is_the_best_worst_case_of_its_mass(
     body = twin()
     alone = {"force_weight": 0.0, "moment_weight": 0.0, "bearing_weight": 1.0} if "bearings" in responses else {}
     answer = ask(body, points=3, tolerances=tolerances, responses=responses)
-    (result,) = answer.trades
-    assert result.status == "optimal"
-    value, mass = result.points[1].values
+    (front,) = answer.trades
+    assert front.status == "optimal"
+    objective, mass = front.points[1].values
     best = answered({**body, "max_total_mass_kg": mass}, objective=alone, tolerances=tolerances)
     assert best.certificate is not None
-    assert value == pytest.approx(best.certificate.objective, abs=3e-6 * result.responses[0].yardstick)
-    assert result.points[1].nominal_values is not None
-    assert result.points[1].nominal_values[0] < value
+    assert objective == pytest.approx(best.certificate.objective, abs=3e-6 * front.responses[0].yardstick)
+    assert front.points[1].nominal_values is not None
+    assert front.points[1].nominal_values[0] < objective
 
 
 @pytest.mark.parametrize(

@@ -49,7 +49,7 @@ def value_of(request: Body, weights: list[dict[str, Any]]) -> float:
     body = {"machine": request["machine"], "outputs": ["residual"]}
     body["counterweights"] = [weight for weight in weights if weight["mass_kg"] > 0]
     after = analyze(AnalyzeRequest.model_validate(body)).residual.after
-    places = [entry["position_m"] for name in ("throws", "webs") for entry in request["machine"][name]]
+    places = [part["position_m"] for name in ("throws", "webs") for part in request["machine"][name]]
     span = max(places) - min(places) or 1.0
     if after.moment.peak_y_Nm > request.get("objective", {}).get("moment_ceiling_y_Nm", np.inf) * (1 + 1e-9):
         return np.inf
@@ -80,7 +80,7 @@ def best_by_hand(request: Body, mass_step: float, angle_step: float) -> float:
             ):
                 own.append((float(mass), float(angle)))
         options.append(own if counterweight.mass_kg > 0 else own[:1])
-    names = [entry.web for entry in fitted(free)]
+    names = [weight.web for weight in fitted(free)]
     return min(
         value_of(
             request, [{"web": name, "mass_kg": m, "angle_deg": a} for name, (m, a) in zip(names, some, strict=True)]
@@ -130,10 +130,10 @@ def test_the_answer_is_the_best_of_all_roundings(rotation: str, goal: Body, step
     assert value_of(request, counterweights) == pytest.approx(answer.certificate.objective, rel=1e-9)
     for weight in fitted(answer):
         crank = 90.0 if weight.web.startswith("1") else 0.0
-        for value, step in ((weight.mass_kg, steps[0]), (weight.angle_deg - crank, steps[1])):
+        for quantity, step in ((weight.mass_kg, steps[0]), (weight.angle_deg - crank, steps[1])):
             # to the last digit: 64.1, not what is left of it where its mirror image is mirrored back
-            assert abs(value / step - round(value / step)) <= 1e-12 * max(1.0, value / step)
-            assert value == float(f"{value:.12g}")
+            assert abs(quantity / step - round(quantity / step)) <= 1e-12 * max(1.0, quantity / step)
+            assert quantity == float(f"{quantity:.12g}")
     assert answer.rounding.optimum.objective <= answer.certificate.objective
 
 
@@ -155,7 +155,7 @@ def test_groups_and_fixed_weights_stand_beside_shafts() -> None:
     machine["webs"].append(web("there", 0.2, None, fixed={"mass_kg": 1.3, "angle_deg": 33.0}))
     answer = on_steps({"machine": machine})
     assert answer.status == "optimal"
-    by_name = {entry.web: entry for entry in fitted(answer)}
+    by_name = {weight.web: weight for weight in fitted(answer)}
     assert (by_name["there"].mass_kg, by_name["there"].angle_deg) == (1.3, 33.0)
     assert by_name["0a"].mass_kg == by_name["1b"].mass_kg
     assert "there" not in [step.web for step in answer.rounding.steps]

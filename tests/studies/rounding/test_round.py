@@ -209,8 +209,8 @@ def test_the_example_of_the_workshop() -> None:
         moved = {"lighter": (mass - 0.5, angle), "heavier": (mass + 0.5, angle)}
         moved |= {"backward": (mass, angle - 5), "forward": (mass, angle + 5)}
         for name, placed in moved.items():
-            value, _ = value_of(body(), *zip(*{**weights, step.web: placed}.values(), strict=True))
-            rise = value - answer.certificate.objective
+            objective, _ = value_of(body(), *zip(*{**weights, step.web: placed}.values(), strict=True))
+            rise = objective - answer.certificate.objective
             assert getattr(step, name) == pytest.approx(rise, rel=1e-6, abs=1e-6)
 
 

@@ -82,8 +82,8 @@ def detail_figures(request: SweepRequest, answer: OptimizeAnswer | AnalyzeAnswer
         parts = list(parts_of(request.base.machine, _OF[key]))
         numbers = list(figures(answer, path.replace("[]", ".[]").split(".")))
         if getattr(answer, path.split(".")[0]) is not None:
-            for part, value in zip(parts, numbers, strict=True):
-                yield key + part.label, value
+            for part, number in zip(parts, numbers, strict=True):
+                yield key + part.label, number
 
 
 def figures(node: Any, path: list[str]) -> Iterator[Any]:

@@ -91,11 +91,11 @@ def assert_row_is_the_single_answer(request: SweepRequest, row: dict[str, Any], 
     return str(row["status"])
 
 
-def assert_close(name: str, value: float | None, expected: float | None, size: float, close: float = CLOSE) -> None:
-    if expected is None or value is None:
-        assert value is expected, (name, value, expected)
+def assert_close(name: str, figure: float | None, expected: float | None, size: float, close: float = CLOSE) -> None:
+    if expected is None or figure is None:
+        assert figure is expected, (name, figure, expected)
     else:
-        assert abs(value - expected) <= close * max(abs(expected), size), (name, value, expected, size)
+        assert abs(figure - expected) <= close * max(abs(expected), size), (name, figure, expected, size)
 
 
 def _labels(request: SweepRequest) -> set[str]:

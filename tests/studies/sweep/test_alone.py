@@ -105,13 +105,13 @@ def test_least_masses_and_what_holds_none() -> None:
 
 
 @pytest.mark.parametrize("of_base", [None, 1])
-@pytest.mark.parametrize("value", [None, 1e-5])
-def test_a_row_is_asked_for_the_gap_of_its_own_machine(of_base: int | None, value: float | None) -> None:
+@pytest.mark.parametrize("gap", [None, 1e-5])
+def test_a_row_is_asked_for_the_gap_of_its_own_machine(of_base: int | None, gap: float | None) -> None:
     """Property: an axis that asks for a search changes the usual gap, and none that is said."""
     base = plain()
     base["machine"]["webs"][0]["min_fitted_mass_kg"] = of_base
-    if value is not None:
-        base["accuracy"] = {"relative_gap": value}
+    if gap is not None:
+        base["accuracy"] = {"relative_gap": gap}
     request = sweep(base, {"path": "/machine/webs/0/min_fitted_mass_kg", "values": [None, 1]})
     # as a worker gets it
     request = SweepRequest.model_validate_json(request.model_dump_json())
@@ -119,7 +119,7 @@ def test_a_row_is_asked_for_the_gap_of_its_own_machine(of_base: int | None, valu
     rows = [group.single(design) for design in (0, 1)]
     # read again, as by a client who asks for the design alone
     again = [OptimizeRequest.model_validate(json.loads(row.model_dump_json())) for row in rows]
-    expected = [value or 1e-6, value or 1e-3]
+    expected = [gap or 1e-6, gap or 1e-3]
     assert [row.accuracy.relative_gap for row in rows if isinstance(row, OptimizeRequest)] == expected
     assert [optimize_request.accuracy.relative_gap for optimize_request in again] == expected
 

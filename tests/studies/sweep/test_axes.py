@@ -102,7 +102,7 @@ def test_values_that_no_such_field_takes_are_refused(path: str, value: Any, text
 def test_text_with_a_unit_stands_for_its_number() -> None:
     request = sweep(example("2d12"), {"path": "/machine/throws/0/crank_radius_m", "values": ["140 mm", 0.15]})
     target = request.targets[0]
-    assert [target.number(value) for value in request.axes[0].values or ()] == [0.14, 0.15]
+    assert [target.number(radius) for radius in request.axes[0].values or ()] == [0.14, 0.15]
 
 
 @pytest.mark.parametrize(
@@ -178,7 +178,7 @@ def test_targets_carry_the_range_of_the_field() -> None:
     assert (target.lowest, target.above, target.highest, target.below) == (1.0, True, 10.0, False)
     messages = [rule.message for rule in target.rules(1.0)]
     assert messages == ["must be greater than 1", "must be at most 10"]
-    broken = [[bool(rule.broken) for rule in target.rules(value)] for value in (1.0, 1.1, 10.0, 10.1, float("nan"))]
+    broken = [[bool(rule.broken) for rule in target.rules(number)] for number in (1.0, 1.1, 10.0, 10.1, float("nan"))]
     assert broken == [[True, False], [False, False], [False, False], [False, True], [False, False]]
 
 

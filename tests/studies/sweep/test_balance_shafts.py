@@ -142,10 +142,10 @@ def test_a_shaft_takes_its_half_in_every_design() -> None:
     # published: half of the reciprocating mass on either shaft, whatever the mass
     masses = np.linspace(1.0, 20.0, 100)
     axis = {"path": "/machine/throws/0/rows/0/reciprocating_mass_kg", "values": masses.tolist()}
-    result = table(sweep({"machine": BACKWARDS}, axis))
-    assert set(result["status"].to_pylist()) == {"optimal"}
-    assert result["balance_shafts_mass_kg"].to_numpy() == pytest.approx(masses, rel=1e-5)
-    assert result["total_mass_kg"].to_numpy() == pytest.approx(0.5 * masses, rel=1e-5)
+    rows = table(sweep({"machine": BACKWARDS}, axis))
+    assert set(rows["status"].to_pylist()) == {"optimal"}
+    assert rows["balance_shafts_mass_kg"].to_numpy() == pytest.approx(masses, rel=1e-5)
+    assert rows["total_mass_kg"].to_numpy() == pytest.approx(0.5 * masses, rel=1e-5)
 
 
 @pytest.mark.parametrize(("sector", "count"), [(None, 2), ({"centre_deg": 90.0, "half_angle_deg": 20.0}, 6)])

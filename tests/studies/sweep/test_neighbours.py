@@ -66,5 +66,5 @@ def test_designs_without_largest_masses_are_proven_together(monkeypatch: pytest.
     base = example("2d12")
     for web in base["machine"]["webs"]:
         web["max_mass_kg"] = None
-    result = table(sweep(base, {"path": "/machine/throws/0/rows/0/reciprocating_mass_kg", "values": [240, 260, 280]}))
-    assert set(result["status"].to_pylist()) == {"optimal"}
+    rows = table(sweep(base, {"path": "/machine/throws/0/rows/0/reciprocating_mass_kg", "values": [240, 260, 280]}))
+    assert set(rows["status"].to_pylist()) == {"optimal"}

@@ -184,11 +184,11 @@ def test_a_row_is_invalid_where_its_request_is_refused_and_says_the_same(name: s
     ],
 )
 def test_only_the_first_of_rules_is_said_for_one_and_for_columns(broken: list[bool], values: list[bool]) -> None:
-    rules = [Rule(verdict, (), "") for verdict in broken]
+    rules = [Rule(wrong, (), "") for wrong in broken]
     assert [rule.broken for rule in first_of(rules)] == values
     # beside a design that breaks none
-    columns = [Rule(np.array([verdict, False]), (), "") for verdict in broken]
-    assert [rule.broken.tolist() for rule in first_of(columns)] == [[verdict, False] for verdict in values]
+    columns = [Rule(np.array([wrong, False]), (), "") for wrong in broken]
+    assert [rule.broken.tolist() for rule in first_of(columns)] == [[wrong, False] for wrong in values]
 
 
 def test_the_largest_of_several_is_exact() -> None:

@@ -26,7 +26,7 @@ def test_between_two_cranks_by_their_angle() -> None:
     for row, left in zip(rows, (100.0, 0.0, 100.0), strict=True):
         assert row["objective"] == pytest.approx(left, abs=1e-3)
         assert row["worst_case_force_peak_N"] == pytest.approx(left, abs=1e-3)
-        # the machine as it is given alone is balanced, and then the other has what lies between both
+        # the unchanged machine alone is balanced, and then the other has what lies between both
         assert row["nominal_optimum"] == pytest.approx(0.0, abs=1e-3)
         assert row["nominal_optimum_worst_case"] == pytest.approx(2.0 * left, abs=2e-3)
 
@@ -83,11 +83,11 @@ def test_a_scenario_that_lacks_what_the_goal_needs_is_a_row_that_says_so() -> No
 def test_of_cranks_in_order_scenarios_of_other_parts_leave_no_two_alike() -> None:
     """Analytic: four angles make 4! sequences, and fewer machines where all throws are alike."""
     angles = cranks.once(4)
-    value = {"design": "crank_orders", "angles_deg": angles}
+    design = {"design": "crank_orders", "angles_deg": angles}
     alike = {"machine": cranks.body(angles)["base"]["machine"]}
-    plain = sweep(alike, **value)
-    fast = sweep({**alike, "scenarios": [scenario("fast", speed_rpm=900.0)]}, **value)
-    heavy = sweep({**alike, "scenarios": [scenario("heavy", throws__0__rotating_mass_kg=9.0)]}, **value)
+    plain = sweep(alike, **design)
+    fast = sweep({**alike, "scenarios": [scenario("fast", speed_rpm=900.0)]}, **design)
+    heavy = sweep({**alike, "scenarios": [scenario("heavy", throws__0__rotating_mass_kg=9.0)]}, **design)
     assert fast.total == plain.total < heavy.total == 24
 
 

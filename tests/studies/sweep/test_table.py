@@ -61,9 +61,9 @@ def test_ranges_beyond_the_sweep_are_refused(start: int, stop: int) -> None:
 
 
 def test_no_designs_make_an_empty_table() -> None:
-    value = run_chunk(hypercube().model_dump_json().encode(), 4, 4)
-    assert value.num_rows == 0
-    assert value.column_names == [column.name for column in hypercube().all_columns]
+    chunk = run_chunk(hypercube().model_dump_json().encode(), 4, 4)
+    assert chunk.num_rows == 0
+    assert chunk.column_names == [column.name for column in hypercube().all_columns]
 
 
 def test_columns_of_the_contract() -> None:

@@ -1,7 +1,7 @@
 // Inputs for single values: numbers with their unit, choices, texts, lists of numbers.
 
 import { h } from "../dom.js";
-import { label, written } from "../format.js";
+import { hint, label, written } from "../format.js";
 import { doubt as doubted, read } from "../quantity.js";
 
 let last = 0;
@@ -33,7 +33,7 @@ export function field(name, pointer, description, value, required, change) {
   return h("div", { class: `field is-${description.kind}`, dataset: { pointer } },
     h("label", { for: id }, description.title ?? label(name), description.unit && h("span", { class: "unit" }, ` ${description.unit}`)),
     input, question,
-    h("p", { class: "hint", id: `${id}-hint` }, `${description.about.replace("null is", "empty is")}.${text}`),
+    h("p", { class: "hint", id: `${id}-hint` }, `${hint(description.about)}.${text}`),
     h("p", { class: "error", id: `${id}-error` }));
 }
 
@@ -57,8 +57,8 @@ function make(description, value, required, change) {
   return input;
 }
 
-// What an empty field stands for.
-const meaning = ({ about }) => /null is ([^;,.]+)/.exec(about)?.[1] ?? "none";
+// What an empty field stands for; a field that it names has its label.
+const meaning = ({ about }) => (/null is ([^;,.]+)/.exec(about)?.[1] ?? "none").replace(/\b\w+_\w+\b/g, label);
 
 // nothing is chosen for the reader
 function choice(description, value, _required, change) {

@@ -1,7 +1,7 @@
 // The parts of a form, generated from the schema of a request. Every part knows its JSON pointer.
 
 import { h } from "../dom.js";
-import { label, nameOf, singular } from "../format.js";
+import { hint, label, nameOf, singular } from "../format.js";
 import { gasPart } from "../gas/part.js";
 import { inTable, tableAt } from "../grid/columns.js";
 import { Grid } from "../grid/grid.js";
@@ -130,7 +130,7 @@ export class Parts {
           this.form.opened(at)?.querySelector("summary")?.focus();
         } else this.redraw(box, this.part(name, at, description, required));
       } }, `Add ${titled(at, {}).title?.toLowerCase() ?? label(name)}`),
-      h("span", { class: "about" }, ` ${description.about}`),
+      h("span", { class: "about" }, ` ${hint(description.about)}`),
       h("p", { class: "error", id: `error-${at}` }));
     return box;
   }
@@ -159,7 +159,7 @@ export class Parts {
       return [
         this.grid(table, source),
         rows ? [h("h3", {}, "Rows"), this.grid(tableAt(`${at}/0/rows`), rows), this.gas()] : [],
-        h("p", { class: "about" }, `${description.about}${more ? "; everything else of each:" : "."}`),
+        h("p", { class: "about" }, `${hint(description.about)}${more ? "; everything else of each:" : "."}`),
         more ? source.entries().map((_, index) => this.item(name, at, index, description, null)) : [],
       ].flat();
     });
@@ -192,7 +192,7 @@ export class Parts {
         const added = fresh.querySelector(`:scope > .inside > [data-pointer="${CSS.escape(join(at, list.length))}"]`);
         added?.setAttribute("open", "");
       } }, `Add ${singular(name)}`),
-      h("p", { class: "about" }, description.about),
+      h("p", { class: "about" }, hint(description.about)),
     ]);
     return made;
   }

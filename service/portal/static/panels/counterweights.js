@@ -1,7 +1,7 @@
 // The counterweights, the limits that hold them back, and what a little more of each limit would be worth.
 
 import { h, table } from "../dom.js";
-import { figure, number } from "../format.js";
+import { degrees, figure, number } from "../format.js";
 import { limited } from "../objective.js";
 
 const LIMITS = {
@@ -22,7 +22,7 @@ export function counterweightTable(counterweights, prices = []) {
     counterweights.map((one) => [
       one.web,
       ...(one.mass_kg > 0
-        ? [number(one.mass_kg), number(one.angle_deg), number(one.angle_from_crank_deg), number(one.mass_radius_kg_m)]
+        ? [number(one.mass_kg), degrees(one.angle_deg), degrees(one.angle_from_crank_deg), number(one.mass_radius_kg_m)]
         : [{ number: true, text: "none" }, number(null), number(null), number(null)]),
       one.fixed ? "fixed" : one.active_limits.map((limit) => LIMITS[limit] ?? limit).join(", ") || "–",
       ...(priced ? [{ number: true, text: of(one.web).map(worth).join(", ") || "–" }] : []),

@@ -1,7 +1,7 @@
 // Gas, friction and inertia over the turn: torque, rod loads, flywheel, main bearings.
 
 import { h, table } from "../dom.js";
-import { figure, nameOf, number } from "../format.js";
+import { degrees, figure, nameOf, number } from "../format.js";
 import { closed, colours, line, overTurn, places, plot, series } from "../plots.js";
 
 const CASES = { running: "running", no_load: "no load", sudden_stop: "sudden stop" };
@@ -43,8 +43,8 @@ export const rodLoads = {
       .map(([name, title], index) => ({ name, title, node: places(body, 2)[index] }));
     body.replaceChildren(h("div", { class: "pair" }, nodes.map((each) => each.node)),
       table("Load cases; forces in the rod, N", ["row", "case", "tension", "at, °", "compression", "at, °", "governs"],
-        found.rows.flatMap((row) => row.cases.map((one) => [rowName(row), CASES[one.case], number(one.tension_N), number(one.tension_deg),
-          number(one.compression_N), number(one.compression_deg), one.case === row.governing_case ? "yes" : ""]))));
+        found.rows.flatMap((row) => row.cases.map((one) => [rowName(row), CASES[one.case], number(one.tension_N), degrees(one.tension_deg),
+          number(one.compression_N), degrees(one.compression_deg), one.case === row.governing_case ? "yes" : ""]))));
     await Promise.all(nodes.map(({ name, title, node }) => plot(node, () => ({
       traces: found.rows.map((row, index) => line(found.angle_deg, row[name], rowName(row), series(index))),
       layout: overTurn(title, found.angle_deg), label: `${title} over the cycle; largest rod force ${figure(found.governing_load_N)} N.`,
@@ -84,11 +84,11 @@ export const mainBearings = {
       found.bearings.map((one, index) => h("option", { value: index }, one.name)));
     body.replaceChildren(h("div", { class: "choose" }, h("label", { for: "bearing" }, "Bearing"), pick),
       h("div", { class: "pair" }, seen, locus),
-      h("p", { class: "about" }, "As the shaft sees it, counterweights move the load and the smallest circle around it together: "
-        + "no peak, the distance of the farthest point from the middle of the shaft, is below the radius."),
+      h("p", { class: "about" }, "Seen from the shaft, counterweights move the load and the smallest circle around it together. "
+        + "The peak is the distance of the farthest point from the middle of the shaft. It is never below the radius."),
       h("div", { class: "pair" }, size, bending),
       table("Peak loads, N", ["bearing", "plane, m", "before", "at, °", "after", "at, °"], found.bearings.map((one) => [one.name, number(one.position_m),
-        number(one.before.peak_N), number(one.before.peak_angle_deg), number(one.after?.peak_N), number(one.after?.peak_angle_deg)])));
+        number(one.before.peak_N), degrees(one.before.peak_angle_deg), number(one.after?.peak_N), degrees(one.after?.peak_angle_deg)])));
     const draw = (index) => Promise.all([
       plot(seen, () => seenFromTheShaft(found, found.bearings[index], context.request.machine)),
       plot(locus, () => polarPlot(found.bearings[index])),

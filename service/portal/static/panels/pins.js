@@ -3,7 +3,7 @@
 import { Problem } from "../api.js";
 import { h, table } from "../dom.js";
 import { PinPicture } from "../drawing/pins.js";
-import { figure, number } from "../format.js";
+import { degrees, figure, number } from "../format.js";
 import { complaint } from "../naming.js";
 import { line, overTurn, places, plot, series } from "../plots.js";
 import { quantity, read } from "../quantity.js";
@@ -81,7 +81,7 @@ function own({ pins: all }, typed, changed) {
 function results(found) {
   return [
     ...found.warnings.map((warning) => h("p", { class: "error" }, warning.message)),
-    table("Loads", ["pin", "peak load, N", "at shaft angle, °"], found.pins.map((pin) => [String(pin.index), number(pin.peak_N), number(pin.peak_angle_deg)])),
+    table("Loads", ["pin", "peak load, N", "at shaft angle, °"], found.pins.map((pin) => [String(pin.index), number(pin.peak_N), degrees(pin.peak_angle_deg)])),
     h("p", {}, found.equilibrium.holds ? "The pins hold the scroll at every angle: their moment is that of the torque."
       : `The pins do not hold the scroll at every angle: ${found.equilibrium.reason ?? "see the dead points"}.`),
     isProven(found.peak_bracket_N) ? h("p", {}, "Peaks are proven for every angle, not at the samples alone.") : "",
