@@ -192,11 +192,11 @@ def _warnings(
         yield PinWarning(code="uneven_load", message=message)
     elif pattern.dead_deg.size:
         yield PinWarning(code="dead_points", message="all pins are on one line and pass dead points")
-    if contact is not None:
-        largest = np.max(np.abs(contact.load), axis=-1)
-        if np.any((contact.error_bound > 1e-6 * largest) & ~stuck):
-            message = "the loads are certified to no more than contact.load_error_bound_N"
-            yield PinWarning(code="not_converged", message=message)
+    largest = 0.0 if contact is None else float(np.max(np.abs(contact.load[~stuck]), initial=0.0))
+    # where nothing is carried at all, nothing is open
+    if contact is not None and largest > 0.0 and np.any(contact.error_bound[~stuck] > 1e-6 * largest):
+        message = "the loads are certified to no more than contact.load_error_bound_N"
+        yield PinWarning(code="not_converged", message=message)
     if peaks is not None and not peaks.is_certified:
         message = f"peaks are the largest of samples every {GRID_DEG:g} degrees, refined around the largest; " + (
             "at and beside dead points nothing bounds them"

@@ -226,3 +226,17 @@ def test_extremes_are_in_equilibrium_or_say_so_analytic(stiffness: float, play: 
     lost = stiffness * play > 1e15 * torque
     assert answer.equilibrium.holds or lost
     assert answer.equilibrium.holds or "not_converged" in {warning.code for warning in answer.warnings}
+
+
+CROSSING = {"angle_deg": [0.0, 90.0, 180.0, 270.0], "torque_Nm": [10.0, 0.0, -10.0, 0.0]}
+
+
+@pytest.mark.parametrize("torque", [0.0, CROSSING])
+def test_loads_that_are_nothing_are_certified_analytic(torque: Any) -> None:
+    """Without a torque at an angle, pins with clearance carry nothing, to the digits of that clearance."""
+    pins = pins_at([0, 120, 240], stiffness_N_per_m=STIFFNESS, clearance_m=[0.0, MICRON, 2.0 * MICRON])
+    answer = ask(pins=pins, rotation_torque_Nm=torque)
+    assert answer.contact is not None
+    assert answer.contact.load_error_bound_N <= 1e-9
+    np.testing.assert_allclose(loads(answer)[90], 0.0, atol=1e-9)
+    assert answer.warnings == ()
