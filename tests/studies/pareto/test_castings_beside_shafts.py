@@ -37,8 +37,12 @@ def test_force_and_moment_are_traded_by_the_shaft_alone() -> None:
         assert point.force_peak_N + point.moment_peak_Nm / ARM == pytest.approx(0.6 * WHOLE, rel=2e-3)
         assert forces(point.model_dump()) == pytest.approx((point.force_peak_N, point.moment_peak_Nm), rel=2e-3)
     assert pareto_front.points[0].force_peak_N == pytest.approx(0.2 * WHOLE, rel=2e-3)
-    # no ceiling is of what turns backwards too, so that the force at the other end is whatever the lightest leaves
+    # the shaft alone makes the moment, and without it the casting leaves the least force
     assert pareto_front.points[-1].moment_peak_Nm == pytest.approx(0.0, abs=1e-9 * WHOLE)
+    assert pareto_front.points[-1].force_peak_N == pytest.approx(0.6 * WHOLE, rel=1e-6)
+    assert pareto_front.ends is not None
+    assert pareto_front.ends.force_at_smallest_moment_N == pareto_front.points[-1].force_peak_N
+    assert pareto_front.points[-1].certificate.force_N == pytest.approx(0.6 * WHOLE, rel=1e-3)
 
 
 @pytest.mark.parametrize("orders", ["first", "all"])
