@@ -26,6 +26,7 @@ from optimizer.studies.pareto.trades import needed
 from schemas.answer.limits import MachineLimit
 from schemas.base.responses import PAIR
 from schemas.front.pareto import CornerCertificate, Ends, ParetoFront, ParetoPoint, ParetoRequest, Reason, Scale
+from schemas.front.trade import Traded
 from schemas.machine.machine import Machine
 
 #: share of the time limit that either end has
@@ -117,24 +118,50 @@ class _Boxes(ChoiceSearch):
 
     def _corner(self, end: ChoicePoint, axis: int, size: Real) -> ChoicePoint:
         """Of all whose peak ``axis`` is the smallest, but for a share of the gap, the least of the other peak."""
+        if end.values[1 - axis] == 0.0:
+            return end
         objective, field = self.task.objective, ("force_ceiling_N", "moment_ceiling_Nm")[axis]
         across = objective.direction_weights
         backwards = any(response.counter_influence is not None for response in self.scene.responses)
         weighed = any(scenario.weight != 1.0 for scenario in self.task.scenarios)
         if (across.x, across.y) != (1.0, 1.0) or weighed or backwards or self.robust.scatter.share:
             # a ceiling is of a whole vector, of all scenarios alike, and of one length of it, which scatters with no
-            # choice; the boxes find the corner
-            return end
+            # choice
+            return self._steep_corner(end, axis, size)
         most = float(end.values[axis] + _SLACK * self.gap * size[axis])
         limit = getattr(objective, field)
         if limit is not None and limit <= most:
             return end
-        corner = self.optimum({PAIR[1 - axis]: 1.0}, self.gap, _END * self.seconds, **{field: most})
+        corner = self.optimum({PAIR[1 - axis]: 1.0}, self.gap, _END * self.seconds, ceilings={field: most})
         if isinstance(corner, Infeasible) or corner.values[1 - axis] > end.values[1 - axis]:
             return end
         # what exceeds the ceiling by no more than this optimum has no less of the other peak
         proven = np.where(np.arange(2) == axis, max(most, float(corner.values[axis])), corner.corner)
         return replace(corner, corner=proven)
+
+    def _steep_corner(self, end: ChoicePoint, axis: int, size: Real) -> ChoicePoint:
+        """The same by the sum of both peaks, in which the one of ``axis`` is so dear that all of the other is worth no
+        more than the share of the gap."""
+        other = 1 - axis
+        price = float(end.values[other] / (_SLACK * self.gap * size[axis]))
+        worth = price * self.at_rest[axis] + self.at_rest[other]
+        gap = float(self.gap * size[other] / worth) if worth > 0.0 else self.gap
+        weights: dict[Traded, float] = {PAIR[axis]: price, PAIR[other]: 1.0}
+        corner = self.optimum(weights, gap, _END * self.seconds, combine="sum")
+        if isinstance(corner, Infeasible) or not corner.values[other] < end.values[other]:
+            return end
+        bound, value = corner.solution.certificate.lower_bound, float(corner.values[axis])
+        # a little more than its share, for the gap of the sum
+        most = float(end.values[axis] + 1.5 * _SLACK * self.gap * size[axis])
+        if bound is None or value > most or corner.solution.status != "optimal":
+            # the boxes show it
+            return end
+        # of what has less of the peak that is dear the other is no less than this
+        least = bound - price * value
+        if corner.values[other] - least > self.gap * size[other]:
+            # both peaks may be of two scenarios, where a sum is of one: none has less of the first
+            return replace(corner, corner=np.where(np.arange(2) == axis, end.corner, corner.values))
+        return replace(corner, corner=np.where(np.arange(2) == axis, value, least))
 
     def _between(
         self, force: ChoicePoint, moment: ChoicePoint, size: Real, points: int

@@ -9,6 +9,7 @@ choice within the budget is below t_low times the unit in every other response.
 from collections.abc import Mapping
 from dataclasses import replace
 from time import thread_time
+from typing import Literal
 
 import numpy as np
 
@@ -33,6 +34,7 @@ from schemas.request.objective import Objective
 _LEAST_GAP = 1e-12
 #: least time of a search, s
 _LEAST_TIME = 1e-3
+_NO_CEILINGS: Mapping[str, float] = {}
 #: fields of the weights of what is traded beside the responses on the frame
 _BESIDE: Mapping[Traded, str] = {"bearings": "bearing_weight", "bending": "bending_weight", "roll": "roll_weight"}
 
@@ -123,20 +125,22 @@ class ChoiceSearch:
         gap: float,
         seconds: float,
         budget: float | None = None,
-        **ceilings: float,
+        combine: Literal["sum", "max"] = "max",
+        ceilings: Mapping[str, float] = _NO_CEILINGS,
     ) -> ChoicePoint | Infeasible:
-        """The best choice for the largest of some responses times their weights.
+        """The best choice for the largest of some responses times their weights, or for their sum.
 
         Parameters
         ----------
         budget : limit of the total mass, kg; None is that of the task.
+        combine : of a sum no corner is proven.
         ceilings : of the objective in place of its own, by field.
         """
         machine = self.task.machine
         if budget is not None:
             # nothing checked: a budget below what is fixed leaves no counterweights
             machine = with_fields(machine, {("max_total_mass_kg",): budget})
-        goal = self._weighing(weights, ceilings)
+        goal = self._weighing(weights, combine, ceilings)
         limit = min(max(seconds, _LEAST_TIME), self.seconds)
         gap = min(max(gap, _LEAST_GAP), 1.0)
         task = replace(self.task, machine=machine, objective=goal, relative_gap=gap, time_limit_s=limit)
@@ -146,18 +150,20 @@ class ChoiceSearch:
         values = np.where(self.is_mass, best.placement.mass_kg, self.values(best.unbalance))
         bound = best.certificate.lower_bound
         corner = np.full(values.shape, np.nan)
-        if bound is not None:
+        if bound is not None and combine == "max":
             # a response that does not count is not below what it comes to here
             proven = [bound / weights[name] if name in weights else np.nan for name in self.names]
             corner = np.where(np.isnan(proven), values, proven)
         return ChoicePoint(best, values, corner)
 
-    def _weighing(self, weights: Mapping[Traded, float], ceilings: Mapping[str, float]) -> Objective:
-        """The largest of the responses times their weights; the objective itself times its own."""
+    def _weighing(
+        self, weights: Mapping[Traded, float], combine: Literal["sum", "max"], ceilings: Mapping[str, float]
+    ) -> Objective:
+        """The largest of the responses times their weights, or their sum; the objective itself times its own."""
         objective = self.task.objective
         if "objective" in weights:
             own = own_weights(self.task.machine, objective)
             more = {name: float(weight) * weights["objective"] for name, weight in own.items()}
             return weighing(objective, more)
         beside = {field: weights.get(name, 0.0) for name, field in _BESIDE.items()}
-        return weighing(objective, weights, combine="max", **beside, **ceilings)
+        return weighing(objective, weights, combine=combine, **beside, **ceilings)

@@ -1,5 +1,6 @@
 """Fronts of castings on the crankshaft beside any masses on balance shafts, and how many castings are worth it."""
 
+import itertools
 from copy import deepcopy
 from typing import Any
 
@@ -37,8 +38,12 @@ def test_force_and_moment_are_traded_by_the_shaft_alone() -> None:
         assert point.force_peak_N + point.moment_peak_Nm / ARM == pytest.approx(0.6 * WHOLE, rel=2e-3)
         assert forces(point.model_dump()) == pytest.approx((point.force_peak_N, point.moment_peak_Nm), rel=2e-3)
     assert pareto_front.points[0].force_peak_N == pytest.approx(0.2 * WHOLE, rel=2e-3)
-    # no ceiling is of what turns backwards too, so that the force at the other end is whatever the lightest leaves
+    # the shaft alone makes the moment, and without it the casting leaves the least force
     assert pareto_front.points[-1].moment_peak_Nm == pytest.approx(0.0, abs=1e-9 * WHOLE)
+    assert pareto_front.points[-1].force_peak_N == pytest.approx(0.6 * WHOLE, rel=1e-6)
+    assert pareto_front.ends is not None
+    assert pareto_front.ends.force_at_smallest_moment_N == pareto_front.points[-1].force_peak_N
+    assert pareto_front.points[-1].certificate.force_N == pytest.approx(0.6 * WHOLE, rel=1e-3)
 
 
 @pytest.mark.parametrize("orders", ["first", "all"])
@@ -106,3 +111,30 @@ def test_the_ladder_of_castings_counts_them_apart() -> None:
         if row.skipped is None:
             assert (row.pieces, row.sizes, row.limits_kept) == (1, 1, True)
             assert row.total_mass_kg == pytest.approx(8.0, rel=2e-2)
+
+
+@pytest.mark.parametrize("across", [{"x": 1.0, "y": 1.0}, {"x": 1.0, "y": 0.5}])
+def test_the_ends_have_the_least_of_the_other_peak_of_all_sets(across: dict[str, float]) -> None:
+    """Independent: every set of castings on crankshaft and shaft, by masses times accelerations at sampled angles."""
+    body = deepcopy(CASTING)
+    holes = {"catalogue_masses_kg": [1.0, 4.0], "hole_angles_deg": [270.0, 200.0, 90.0]}
+    body["webs"].append(web("b", 0.2, None, throw=0, catalogue_masses_kg=[1.0, 3.0], hole_angles_deg=[270.0, 120.0]))
+    body["balance_shafts"][0]["webs"][0] |= holes
+    options = [
+        [(0.0, 0.0), *((mass, angle) for mass in masses for angle in angles)]
+        for masses, angles in (((4.0,), (270.0,)), ((1.0, 3.0), (270.0, 120.0)), ((1.0, 4.0), (270.0, 200.0, 90.0)))
+    ]
+    peaks = []
+    for weights in itertools.product(*options):
+        first, second, on_shaft = ({"mass_kg": mass, "angle_deg": angle} for mass, angle in weights)
+        there = {"counterweights": [first, second], "balance_shafts": [{"counterweights": [on_shaft]}]}
+        turn = np.array([at(body, there, theta, first=True) for theta in range(0, 360, 3)])
+        peaks.append(np.max(np.abs(across["x"] * turn.real + 1j * across["y"] * turn.imag), axis=0))
+    every = np.array(peaks)
+    answer = front(body, points=9, objective={"direction_weights": across})
+    assert answer.status == "optimal"
+    for axis, point in ((0, answer.points[0]), (1, answer.points[-1])):
+        reached = np.array([point.weighted_force_peak_N, point.weighted_moment_peak_Nm])
+        near = every[:, axis] <= np.min(every[:, axis]) + 3e-3 * np.max(every[:, axis])
+        least = np.min(every[near, 1 - axis])
+        assert reached[1 - axis] == pytest.approx(least, abs=3e-3 * np.max(every[:, 1 - axis]))
