@@ -137,8 +137,8 @@ def test_fixtures_are_shared_within_a_process_and_end_with_it(
     result: subprocess.CompletedProcess[str], folder: Path
 ) -> None:
     notes = [line.split() for line in (folder / "notes").read_text().splitlines()]
-    begun = [pid for what, *_, pid in notes if what == "begin"]
-    ended = [pid for what, *_, pid in notes if what == "end"]
+    begun = [pid for action, *_, pid in notes if action == "begin"]
+    ended = [pid for action, *_, pid in notes if action == "end"]
     # the second file needs three, two of which come to no end
     assert len(begun) == len(set(begun)) == 3
     assert len(ended) == 1

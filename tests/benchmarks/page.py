@@ -126,15 +126,15 @@ def visits(console: Console, browser: Browser, url: str) -> None:
         table.add_column(heading, justify="left" if heading != "by then" else "right")
     example = f"/#example={MACHINES[0]}&open={_PANELS}"
     cases = [("form and beginning of an empty machine", "/", "begun"), ("answer of an example", example, "answered")]
-    for title, path, what in (*cases, ("all of its plots", example, "drawn")):
+    for title, path, mark in (*cases, ("all of its plots", example, "drawn")):
         times = []
         for _ in range(VISITS):
             context = browser.new_context(viewport={"width": 1280, "height": 900})
             view = context.new_page()
             view.add_init_script(_SEEN)
             view.goto(f"{url}{path}")
-            view.wait_for_function("(what) => what in globalThis.seen", arg=what)
-            times.append(float(view.evaluate(f"globalThis.seen.{what}")))
+            view.wait_for_function("(what) => what in globalThis.seen", arg=mark)
+            times.append(float(view.evaluate(f"globalThis.seen.{mark}")))
             context.close()
         table.add_row(title, f"{statistics.median(times):.0f} ({max(times):.0f})")
     console.print(table)

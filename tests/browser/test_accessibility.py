@@ -83,7 +83,7 @@ def test_examples_and_the_beginning_in_both_colours(portal: Portal, url: str, wh
             portal.page.emulate_media(color_scheme=scheme)
             # but for its colours the page is the same in both
             fields[name, scheme] = serious(portal, **({} if scheme == "light" else {"runOnly": ["cat.color"]}))
-    assert {where: what for where, what in fields.items() if what} == {}
+    assert {where: faults for where, faults in fields.items() if faults} == {}
 
 
 @pytest.mark.parametrize("options", [Look()])

@@ -121,6 +121,8 @@ def test_a_limit_that_is_left_empty_is_none(portal: Portal) -> None:
     most = portal.input("/machine/webs/0/max_mass_kg")
     most.fill("")
     assert most.get_attribute("placeholder") == "no limit"
+    # a list that is left empty has the orders that are usual
+    assert portal.input("/foundation_orders").get_attribute("placeholder") == "1, 2, 3, 4, 5, 6"
     # another field is named by its label, and nobody has to know null
     assert portal.input("/machine/overspeed_rpm").get_attribute("placeholder") == "speed"
     assert not [text for text in portal.page.locator("#form .about, #form .hint").all_inner_texts() if "null" in text]

@@ -16,7 +16,7 @@ COLUMNS = "Kurbelwinkel (°KW);Druck (bar)\n" + "\n".join(
     f"{angle};{pressure / 1e5:.5f}".replace(".", ",")
     for angle, pressure in zip(TRACE["angle_deg"], TRACE["pressure_Pa"], strict=True)
 )
-SAID = "#form .gas .said"
+MESSAGE = "#form .gas .said"
 
 
 def _open(portal: Portal, example: str = "inline-six") -> None:
@@ -45,7 +45,7 @@ def test_a_pressure_pasted_anywhere_goes_to_all_cylinders_in_their_firing_order(
         "Pasted: a pressure over the angle, below the rows. Press Optimise."
     )
     _type(portal, bore="84 mm", ambient="1,05 bar", order="1-4-2-6-3-5")
-    expect(portal.page.locator(SAID)).to_have_text("53 lines: two revolutions, 0.95 to 85 bar.")
+    expect(portal.page.locator(MESSAGE)).to_have_text("53 lines: two revolutions, 0.95 to 85 bar.")
     curves = portal.page.locator("#form .gas-curve")
     expect(curves.locator("polyline")).to_have_count(6)
     portal.page.get_by_role("button", name="Give it to all 6 cylinders").click()
@@ -75,7 +75,7 @@ def test_an_order_that_cannot_be_is_said(portal: Portal) -> None:
     _type(portal, text=COLUMNS, bore="84 mm", ambient="1,05 bar")
     for order, words in ORDERS.items():
         _type(portal, order=order)
-        expect(portal.page.locator(SAID)).to_contain_text(words)
+        expect(portal.page.locator(MESSAGE)).to_contain_text(words)
         assert portal.page.get_by_role("button", name="Give it to all 6 cylinders").is_disabled(), order
 
 
@@ -95,7 +95,7 @@ def test_what_is_wrong_with_a_pressure_is_said_and_nothing_is_lost(portal: Porta
     _type(portal, bore="84 mm", ambient="1,05 bar", order="1-4-2-6-3-5")
     for text, words in PRESSURES.items():
         _type(portal, text=text)
-        expect(portal.page.locator(SAID)).to_contain_text(words)
+        expect(portal.page.locator(MESSAGE)).to_contain_text(words)
         assert portal.page.get_by_role("button", name="Give it to all 6 cylinders").is_disabled(), words
         assert portal.page.locator("#gas-text").input_value().strip() == text.strip()
 
@@ -124,7 +124,7 @@ def test_a_file_is_dropped(portal: Portal) -> None:
         }""",
         COLUMNS,
     )
-    expect(portal.page.locator(SAID)).to_contain_text("53 lines: two revolutions, 0.95 to 85 bar.")
+    expect(portal.page.locator(MESSAGE)).to_contain_text("53 lines: two revolutions, 0.95 to 85 bar.")
 
 
 def test_offsets_are_typed_in_place_of_an_order(portal: Portal) -> None:

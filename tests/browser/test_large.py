@@ -10,7 +10,7 @@ from tests.browser.portal import Portal
 WEBS = 40
 KEYS = 12
 #: faults that one refusal names at most
-SAID = 50
+FIRST_MESSAGES = 50
 #: counts what reads or writes a large text, and every step into an object
 _COUNT = """() => {
   globalThis.counted = { large: 0, steps: 0 };
@@ -59,7 +59,9 @@ def _typed(portal: Portal, webs: int) -> dict[str, int]:
     portal.page.fill("#json", json.dumps(_machine(webs)))
     portal.page.click("#read")
     # every name is too long: the refusal opens the webs by itself, and a click at that moment would close them
-    expect(portal.page.locator("#progress")).to_have_text(f"Not computed: {min(webs + 1, SAID)} fields are wrong.")
+    expect(portal.page.locator("#progress")).to_have_text(
+        f"Not computed: {min(webs + 1, FIRST_MESSAGES)} fields are wrong."
+    )
     portal.unfold("/machine", "/machine/webs")
     last = portal.input(f"/machine/webs/{webs - 1}/position_m")
     last.wait_for()

@@ -30,7 +30,7 @@ def test_the_head_and_the_versions_are_given_on_the_page(portal: Portal) -> None
     for name, text in (document | {"revisions": revisions}).items():
         head.locator(f"#document-{name}").fill(text)
     head.get_by_label("slow").check()
-    expect(head.locator("> summary")).to_have_text("Its head: K-1047, revision B; compared with slow")
+    expect(head.locator("> summary")).to_have_text("Head of the report: K-1047, revision B; compared with slow")
     with portal.page.expect_download() as download:
         portal.page.locator("#answer").get_by_role("button", name="HTML").click()
     assert "K-1047" in download.value.suggested_filename
@@ -47,7 +47,7 @@ def test_the_head_and_the_versions_are_given_on_the_page(portal: Portal) -> None
     # of the tab: there after a reload, and said beside the buttons
     portal.page.reload()
     portal.drawn(1)
-    expect(portal.page.locator("#answer .document > summary")).to_have_text("Its head: K-1047, revision B")
+    expect(portal.page.locator("#answer .document > summary")).to_have_text("Head of the report: K-1047, revision B")
     portal.page.evaluate("localStorage.removeItem('counterweight-versions')")
 
 

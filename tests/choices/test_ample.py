@@ -106,8 +106,8 @@ def test_no_slots_are_searched_twice_for_what_is_lighter_than_a_set(monkeypatch:
     searched: list[tuple[object, ...]] = []
 
     def counted(*arguments: Any) -> Lightest:
-        _, _, which, level, below_kg, *_ = arguments
-        searched.append((*(options.tobytes() for options in which), level, below_kg))
+        _, _, slots, level, below_kg, *_ = arguments
+        searched.append((*(options.tobytes() for options in slots), level, below_kg))
         return lighter(*arguments)
 
     monkeypatch.setattr(few_slots, "lighter", counted)

@@ -10,7 +10,7 @@ import pytest
 
 from tests.deploy.files import DEPLOY
 
-KNOWN = {"name": "good", "version": "1", "vulns": []}
+SOUND = {"name": "good", "version": "1", "vulns": []}
 SKIPPED = {"name": "strange", "skip_reason": "not found"}
 FAULTY = {"name": "bad", "version": "1.0", "vulns": [{"id": "CVE-2026-1", "fix_versions": ["1.1"]}]}
 
@@ -36,14 +36,14 @@ def audit(tmp_path: Path, values: list[dict[str, Any]] | None, code: int, log: s
 
 
 def test_nothing_known_is_said_with_how_many_were_asked_about(tmp_path: Path) -> None:
-    ran = audit(tmp_path, [KNOWN, KNOWN], 0)
+    ran = audit(tmp_path, [SOUND, SOUND], 0)
     assert ran.returncode == 0
     assert ran.stdout == "list.txt: 2 asked about, 0 faults known\n"
     assert ran.stderr == ""
 
 
 def test_a_known_fault_fails_and_says_what_puts_it_right(tmp_path: Path) -> None:
-    ran = audit(tmp_path, [KNOWN, FAULTY], 1)
+    ran = audit(tmp_path, [SOUND, FAULTY], 1)
     assert ran.returncode == 1
     assert "FAULT CVE-2026-1 of bad 1.0, put right in 1.1" in ran.stderr
 
@@ -51,7 +51,7 @@ def test_a_known_fault_fails_and_says_what_puts_it_right(tmp_path: Path) -> None
 @pytest.mark.parametrize(("strict", "code"), [("0", 0), ("1", 1)])
 def test_what_was_not_found_is_said_aloud(tmp_path: Path, strict: str, code: int) -> None:
     """pip-audit itself ends with 0 and says that no vulnerability is known."""
-    ran = audit(tmp_path, [KNOWN, SKIPPED], 0, strict=strict)
+    ran = audit(tmp_path, [SOUND, SKIPPED], 0, strict=strict)
     assert ran.returncode == code
     assert "NOT CHECKED for known faults: in list.txt: strange" in ran.stderr
 

@@ -19,7 +19,7 @@ esac
 """
 
 
-def _calls(folder: Path, present: tuple[str, ...], fails: str, *what: str) -> tuple[list[str], str]:
+def _calls(folder: Path, present: tuple[str, ...], fails: str, *arguments: str) -> tuple[list[str], str]:
     """What is called, and what is said, in an environment with these programs."""
     programs = folder / "env" / "bin"
     programs.mkdir(parents=True)
@@ -30,7 +30,7 @@ def _calls(folder: Path, present: tuple[str, ...], fails: str, *what: str) -> tu
     machine = {"PYTHON": str(folder / "machine"), "PIP_INDEX_URL": "https://mirror"}
     environment = os.environ | machine | {"CALLS": str(calls), "FAILS": fails, "PROGRAMS": str(programs)}
     process = subprocess.run(
-        [ROOT / "deploy/install.sh", folder / "env", *what],
+        [ROOT / "deploy/install.sh", folder / "env", *arguments],
         env=environment,
         capture_output=True,
         text=True,
@@ -78,11 +78,11 @@ def test_uv_is_told_of_the_mirror_of_pip(tmp_path: Path) -> None:
     )
 
 
-@pytest.mark.parametrize("what", [("list.txt",), ("--editable", ".")])
-def test_without_uv_pip_installs_the_same_and_it_is_said(tmp_path: Path, what: tuple[str, ...]) -> None:
-    calls, answers = _calls(tmp_path, ("uv", "pip"), "(uv)", *what)
+@pytest.mark.parametrize("arguments", [("list.txt",), ("--editable", ".")])
+def test_without_uv_pip_installs_the_same_and_it_is_said(tmp_path: Path, arguments: tuple[str, ...]) -> None:
+    calls, answers = _calls(tmp_path, ("uv", "pip"), "(uv)", *arguments)
     assert calls[-1].startswith("pip --disable-pip-version-check install ")
-    assert calls[-1].endswith(" ".join(what))
+    assert calls[-1].endswith(" ".join(arguments))
     assert answers.startswith("without uv: pip installs")
 
 

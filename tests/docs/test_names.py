@@ -83,9 +83,9 @@ def names(tree: ast.AST) -> Iterator[str]:
                 yield node.name
         elif isinstance(node, ast.arg):
             yield node.arg
-        # in capitals one is a number
-        elif isinstance(node, ast.Name) and isinstance(node.ctx, ast.Store) and not node.id.isupper():
-            yield node.id
+        # in capitals one is a number, and both is a value
+        elif isinstance(node, ast.Name) and isinstance(node.ctx, ast.Store):
+            yield re.sub("_?(ONE|BOTH)(?![A-Z])", "", node.id) if node.id.isupper() else node.id
         elif isinstance(node, ast.Attribute) and isinstance(node.ctx, ast.Store):
             yield node.attr
 
@@ -123,6 +123,7 @@ def test_code_is_named_by_nouns() -> None:
         "def area(part):\n    part._known = 1",
         "def area(parts):\n    return [2 * one for one in parts]",
         "each = 1",
+        "ASKED = 1",
     ],
 )
 def test_a_participle_is_seen_wherever_it_stands(text: str) -> None:
@@ -130,4 +131,4 @@ def test_a_participle_is_seen_wherever_it_stands(text: str) -> None:
 
 
 def test_a_word_within_a_word_is_no_participle() -> None:
-    assert all(map(is_noun, ("foundation_loads", "Tone", "zones", "teach", "stone_m", "_beaches")))
+    assert all(map(is_noun, ("", "foundation_loads", "Tone", "zones", "teach", "stone_m", "_beaches")))

@@ -65,7 +65,7 @@ FIELDS: dict[str, Callable[[Machine], None]] = {
 #: what stands in rows alone
 MORE: dict[str, Callable[[Machine], None]] = {"`balance_shafts`": geared}
 PARTS = {"class": "piston", "names": ["p"], "masses_kg": [5], "rows": [{"throw": 0, "row": 0}]}
-ASKED: dict[str, tuple[type[BaseModel], dict[str, Any]]] = {
+FEATURES: dict[str, tuple[type[BaseModel], dict[str, Any]]] = {
     "ceilings, or a budget": (OptimizeRequest, {"objective": {"force_ceiling_N": 6e4}}),
     "goals over a revolution": (OptimizeRequest, {"objective": {"bearing_weight": 1}}),
     "goals in their order: `priorities`": (OptimizeRequest, {"objective": {"priorities": [{"goal": "external"}]}}),
@@ -111,7 +111,7 @@ def test_a_cell(row: str, column: str, cell: str) -> None:
         design = speeds if row == "sweeps" else orders
         went = taken(SweepRequest, {"base": {"machine": machine}} | design)
     else:
-        model, more = ASKED[row]
+        model, more = FEATURES[row]
         if cell.endswith("with a catalogue"):
             chosen(machine)
         wrapped = {"request": {"machine": machine}} if model is RoundRequest else {"machine": machine}

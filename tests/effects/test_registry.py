@@ -20,7 +20,7 @@ from tests.effects.machines import EVERY, complete
 
 #: of every output, and of an objective that serves itself
 _OF_OBJECTIVES = ("frame_forces",)
-_ASKED = {name: OUTPUTS[name].needs for name in EVERY} | {"objective": _OF_OBJECTIVES}
+_DEMANDS = {name: OUTPUTS[name].needs for name in EVERY} | {"objective": _OF_OBJECTIVES}
 
 
 def test_every_output_of_the_contract_is_registered_and_answered() -> None:
@@ -102,7 +102,7 @@ def test_the_context_holds_exactly_what_was_declared(monkeypatch: pytest.MonkeyP
     body = complete() if friction else complete(friction=None)
     machine = ReciprocatingMachine.model_validate(body)
     monkeypatch.setattr(registry, "EFFECTS", {name: watched(name) for name in EFFECTS})
-    simulate(machine, layout(machine), _ASKED, Fidelity(), np.linspace(0.0, 6.0, 8))
+    simulate(machine, layout(machine), _DEMANDS, Fidelity(), np.linspace(0.0, 6.0, 8))
     for name, effect in EFFECTS.items():
         if name == "pin_loads" or (name == "friction" and not friction):
             assert name not in fields
@@ -125,7 +125,7 @@ def test_every_effect_runs_once_at_the_samples(monkeypatch: pytest.MonkeyPatch) 
 
     machine = ReciprocatingMachine.model_validate(complete())
     monkeypatch.setattr(registry, "EFFECTS", {name: counted(name) for name in EFFECTS})
-    simulate(machine, layout(machine), _ASKED, Fidelity(), np.linspace(0.0, 6.0, 7))
+    simulate(machine, layout(machine), _DEMANDS, Fidelity(), np.linspace(0.0, 6.0, 7))
     assert calls == [(name, 7) for name in EFFECTS if name != "pin_loads"]
 
 

@@ -86,7 +86,7 @@ SHOWN = {
     "rows": [["throw"]],
     "webs": table(["use", "name", "position_m"], [{"use": "yes", "name": "web 1", "position_m": 0.1}]),
 }
-SAID = {
+MESSAGES = {
     "machine": {
         "speed_rpm": 500,
         "throws": [{"crank_radius_m": 0.14, "rows": [{"axis_deg": 90, "connecting_rod": {"mass_kg": 3.0}}]}],
@@ -97,7 +97,7 @@ SAID = {
 
 
 def test_what_no_face_shows_is_added_to_what_they_show() -> None:
-    body = from_tables(completed(SHOWN, SAID)).body
+    body = from_tables(completed(SHOWN, MESSAGES)).body
     assert body == {
         "machine": {
             "kind": "reciprocating",

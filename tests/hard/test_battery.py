@@ -14,7 +14,7 @@ from tests.night import part
 from tests.verification.checking import optimized
 
 _CASES = all_cases()
-_KNOWN = stored.read()
+_REFERENCES = stored.read()
 #: every eleventh case of moderate size is computed anew
 _SAMPLE = [case for case in _CASES if len(case.body["machine"]["webs"]) <= 4][::11]
 
@@ -26,7 +26,7 @@ def _name(case: Case) -> str:
 @pytest.mark.parametrize("case", part(4, _CASES), ids=_name)
 def test_case(case: Case) -> None:
     """Optimal within the asked gap, or infeasible where it is; nothing differs from the reference."""
-    verdict = run(case, _KNOWN[stored.digest(case.body)])
+    verdict = run(case, _REFERENCES[stored.digest(case.body)])
     assert not verdict.faults, "\n".join([case.why, *verdict.faults])
 
 
@@ -34,7 +34,7 @@ def test_case(case: Case) -> None:
 @pytest.mark.parametrize("case", _SAMPLE, ids=_name)
 def test_stored_reference_is_what_the_reference_computes(case: Case) -> None:
     """Independent: the same numbers again, to the digits that are stored and the gap that is proven."""
-    standard, again = _KNOWN[stored.digest(case.body)], reference(case.body)
+    standard, again = _REFERENCES[stored.digest(case.body)], reference(case.body)
     assert standard.feasible == again.feasible
     for name in ("excess", "objective", "relaxed", "rest", "mass", "mass_relaxed", "force", "moment"):
         left, right = getattr(standard, name), getattr(again, name)
@@ -53,7 +53,7 @@ def test_the_battery_is_what_was_promised() -> None:
 
 def test_no_reference_is_left_over() -> None:
     """The file holds the cases there are, and no others."""
-    assert set(_KNOWN) == {stored.digest(case.body) for case in _CASES}
+    assert set(_REFERENCES) == {stored.digest(case.body) for case in _CASES}
 
 
 def test_what_a_double_cannot_hold_is_called_inaccurate() -> None:

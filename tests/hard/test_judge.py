@@ -65,9 +65,9 @@ _CHANGES: tuple[tuple[str, Case, Callable[[OptimizeAnswer], OptimizeAnswer]], ..
 )
 
 
-@pytest.mark.parametrize("which", every(4, range(len(_CHANGES))), ids=[fault for fault, _, _ in _CHANGES])
-def test_a_false_claim_is_found_out(which: int) -> None:
-    fault, instance, change = _CHANGES[which]
+@pytest.mark.parametrize("number", every(4, range(len(_CHANGES))), ids=[fault for fault, _, _ in _CHANGES])
+def test_a_false_claim_is_found_out(number: int) -> None:
+    fault, instance, change = _CHANGES[number]
     """The change brings the fault, which the answer itself does not have."""
     expected, answer = _expected(instance), _answer(instance)
     assert not judge(instance, answer, expected).faults

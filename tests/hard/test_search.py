@@ -134,12 +134,12 @@ def test_the_order_of_webs_does_not_matter(body: Body, rng: random.Random) -> No
 
 @search(24)
 @given(requests(max_webs=4), st.integers(0, 3))
-def test_a_web_in_two_halves_is_the_same_web(body: Body, which: int) -> None:
+def test_a_web_in_two_halves_is_the_same_web(body: Body, number: int) -> None:
     """Analytic: two webs of half the limit in one place do what one did."""
     webs = list(body["machine"]["webs"])
-    split = webs[which % len(webs)]
+    split = webs[number % len(webs)]
     halves = [{**split, "name": f"{split['name']}{half}", "max_mass_kg": split["max_mass_kg"] / 2} for half in "ab"]
-    webs[which % len(webs) : which % len(webs) + 1] = halves
+    webs[number % len(webs) : number % len(webs) + 1] = halves
     _same(body, {**body, "machine": {**body["machine"], "webs": webs}})
 
 

@@ -8,14 +8,14 @@ from tests.hard.worst_case import KINDS, faults
 from tests.night import part
 
 _CASES = all_cases()
-_KNOWN = stored.read()
+_REFERENCES = stored.read()
 
 
 def _held(kind: str, cases: range) -> None:
     fields = {
         case.name: wrong
         for case in _CASES[cases.start :: cases.step]
-        if (wrong := faults(kind, case, _KNOWN[stored.digest(case.body)])[1])
+        if (wrong := faults(kind, case, _REFERENCES[stored.digest(case.body)])[1])
     }
     assert not fields, fields
 

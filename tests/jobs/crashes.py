@@ -156,13 +156,13 @@ def _forgotten(house: House, journal: Journal) -> int:
     """Rows that were said to be on disk and are not; a job that is lost, or comes back, counts with all of its."""
     lost, record = 0, list(journal)
     for job in {job for _, job, _ in record}:
-        facts = {fact for fact, this, _ in record if this == job}
+        facts = {fact for fact, identity, _ in record if identity == job}
         try:
             state = house.store.get(job)
         except UnknownJob:
             lost += 0 if "leaving" in facts else TOTAL
         else:
-            finished = sum(rows for _, this, rows in record if this == job)
+            finished = sum(rows for _, identity, rows in record if identity == job)
             lost += TOTAL if "removed" in facts else max(0, finished - state.done)
     return lost
 

@@ -288,8 +288,8 @@ def main() -> None:
     with tempfile.TemporaryDirectory() as folder:
         texts, fields = run(Path(folder), arguments.kills, arguments.seed, arguments.sqlite)
     print(json.dumps({**fields, "contradictions": len(texts), "s": round(time.monotonic() - began)}))
-    for what in texts:
-        print(what, file=sys.stderr)
+    for text in texts:
+        print(text, file=sys.stderr)
     sys.exit(1 if texts else 0)
 
 

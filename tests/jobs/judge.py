@@ -27,7 +27,7 @@ def contradictions(calls: Sequence[Call], outages: Outages) -> list[str]:
                 about.setdefault(job, []).append(call)
     texts = [*_answers(ordered, outages), *_keys(accepted), *_lists(ordered, accepted, about)]
     for job, its in about.items():
-        texts += [f"{job}: {what}" for check in (_existence, _states, _rows) for what in check(its)]
+        texts += [f"{job}: {fault}" for check in (_existence, _states, _rows) for fault in check(its)]
     return texts
 
 
@@ -36,18 +36,18 @@ def contradictions(calls: Sequence[Call], outages: Outages) -> list[str]:
 
 def _answers(calls: Sequence[Call], outages: Outages) -> Iterator[str]:
     for call in calls:
-        what = f"{call.action} {call.subject}"
+        deed = f"{call.action} {call.subject}"
         if call.wrong:
-            yield f"{what}: {call.wrong}"
+            yield f"{deed}: {call.wrong}"
         if call.status is None:
             explained = call.cut or _away(call, outages.get(call.service, ())) or _cut_by_removal(call, calls)
             if not explained:
-                yield f"{what}: not answered by a service that lived"
+                yield f"{deed}: not answered by a service that lived"
         elif call.status >= 500:
             if call.status != 503 or not _away(call, outages.get("database", ())):
-                yield f"{what}: {call.status} while the database was there"
+                yield f"{deed}: {call.status} while the database was there"
         elif call.status != 404 and call.status not in _EXPECTED.get(call.action, {200}):
-            yield f"{what}: {call.status}"
+            yield f"{deed}: {call.status}"
 
 
 def _away(call: Call, times: Sequence[tuple[float, float]]) -> bool:
@@ -68,10 +68,10 @@ def _cut_by_removal(call: Call, calls: Sequence[Call]) -> bool:
 def _keys(accepted: Sequence[Call]) -> Iterator[str]:
     """A key is one sweep, and a sweep has one key."""
     pairs = {(call.subject, job) for call in accepted for job in call.ids}
-    for part, what in ((0, "key"), (1, "sweep")):
+    for part, subject in ((0, "key"), (1, "sweep")):
         for name, group in groupby(sorted(pairs, key=lambda pair: pair[part]), key=lambda pair: pair[part]):
             if len(list(group)) > 1:
-                yield f"{what} {name}: not one to one"
+                yield f"{subject} {name}: not one to one"
 
 
 def _existence(calls: Sequence[Call]) -> Iterator[str]:

@@ -68,10 +68,10 @@ WRONG: dict[str, list[Call]] = {
 }
 
 
-@pytest.mark.parametrize("what", WRONG)
-def test_what_cannot_be_is_found(what: str) -> None:
-    actual_contradictions = contradictions([SUBMITTED, *WRONG[what]], {})
-    assert any(what in actual_contradiction for actual_contradiction in actual_contradictions), actual_contradictions
+@pytest.mark.parametrize("fault", WRONG)
+def test_what_cannot_be_is_found(fault: str) -> None:
+    actual_contradictions = contradictions([SUBMITTED, *WRONG[fault]], {})
+    assert any(fault in actual_contradiction for actual_contradiction in actual_contradictions), actual_contradictions
 
 
 def test_what_can_be_is_not_found() -> None:

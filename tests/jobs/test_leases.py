@@ -18,7 +18,7 @@ from tests.jobs.test_races import claimed, submitted
 FIRST, SECOND = (2, "a", 5000, 1, 2), (3, "b", 4096, 2, 1)
 BYTES = 8192 + 4096
 #: what a request and the names of its columns take
-ASKED = len(b"{}") + synthetic.SCHEMA.serialize().size
+REQUEST_BYTES = len(b"{}") + synthetic.SCHEMA.serialize().size
 
 
 @pytest.fixture
@@ -51,7 +51,7 @@ def ends(house: House, job: str) -> tuple[float | None, float | None]:
 
 
 def counts(job: Job) -> tuple[object, ...]:
-    return job.state, job.done, job.failed, job.invalid, job.infeasible, job.bytes - ASKED, job.repaired
+    return job.state, job.done, job.failed, job.invalid, job.infeasible, job.bytes - REQUEST_BYTES, job.repaired
 
 
 def test_a_damaged_file_is_computed_again_and_its_rows_are_counted_anew(house: House) -> None:
@@ -180,7 +180,7 @@ def test_a_chunk_that_is_not_finished_is_given_no_digest(house: House) -> None:
     chunk = claimed(house)
     house.leases.adopt(job, Record(0, 10, None, 0), "x", 5000)
     assert row(house, job, 0)["digest"] is None
-    assert house.store.get(job).bytes == ASKED
+    assert house.store.get(job).bytes == REQUEST_BYTES
     assert house.leases.finish([Computed(chunk, *FIRST)]) == [True]
 
 

@@ -14,8 +14,8 @@ def cases() -> dict[str, Callable[[], Any]]:
     """What is written down, by name."""
     functions: dict[str, Callable[[], Any]] = {name: partial(_of_designs, name) for name in FUNCTIONS}
     functions |= {
-        f"{what} of {name}": partial(function, name)
-        for what, (names, function) in OF_MACHINES.items()
+        f"{kind} of {name}": partial(function, name)
+        for kind, (names, function) in OF_MACHINES.items()
         for name in names
     }
     return functions

@@ -36,18 +36,18 @@ def _of_many(values: Real, factor: Real) -> Real:
     return result
 
 
-def _varied(rows: RowData, what: str, factor: Real) -> RowData:
-    if what == "rod":
+def _varied(rows: RowData, column: str, factor: Real) -> RowData:
+    if column == "rod":
         ratio = _of_many(rows.rod_ratio, factor)
         return replace(rows, designs=len(factor), rod_ratio=ratio, rod_margin=1.0 - ratio)
-    name = {"pressure": "suction", "mass": "inertia", "area": "area", "nothing": None}[what]
+    name = {"pressure": "suction", "mass": "inertia", "area": "area", "nothing": None}[column]
     some = {} if name is None else {name: _of_many(getattr(rows, name), factor)}
     return replace(rows, designs=len(factor), **some)
 
 
-def _designs(turn: WholeTurn, what: str, moved: float, generator: np.random.Generator) -> WholeTurn:
+def _designs(turn: WholeTurn, column: str, moved: float, generator: np.random.Generator) -> WholeTurn:
     """Designs some pieces of which differ in a share of the designs."""
-    rows = _varied(turn.rows, what, generator.uniform(0.9, 1.0, DESIGNS))
+    rows = _varied(turn.rows, column, generator.uniform(0.9, 1.0, DESIGNS))
     centre, half = (np.repeat(array, DESIGNS, axis=0) for array in (turn.centre, turn.half))
     narrow = generator.random(half.shape) < moved
     half[narrow] *= generator.uniform(0.3, 1.0, np.count_nonzero(narrow))
@@ -56,9 +56,9 @@ def _designs(turn: WholeTurn, what: str, moved: float, generator: np.random.Gene
 
 @settings(deadline=None, max_examples=150 if night.ALL else 12)
 @given(st.integers(0, 10**6), st.sampled_from(STYLES), st.sampled_from(VARIED), st.sampled_from([0.0, 0.02, 1.0]))
-def test_many_designs_have_the_curves_of_each(seed: int, style: str, what: str, moved: float) -> None:
+def test_many_designs_have_the_curves_of_each(seed: int, style: str, column: str, moved: float) -> None:
     generator = np.random.default_rng(seed)
-    every = _designs(_turn(seed, style), what, moved, generator)
+    every = _designs(_turn(seed, style), column, moved, generator)
     count = every.rows.crank_radius.shape[-1]
     for reading in READINGS:
         weights = generator.normal(size=(DESIGNS, 2, count)) + 1j * generator.normal(size=(DESIGNS, 2, count))

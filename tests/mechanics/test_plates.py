@@ -9,7 +9,11 @@ from optimizer.mechanics.plates import Plates
 SECTORS = AnnularSector(np.array([0.05, 0.0]), np.array([0.2, 0.3]), np.array([100.0, 200.0]), np.array([1.2, 0.7]))
 SEGMENTS = Segment(np.array([0.03]), np.array([0.25]), np.array([300.0]), np.array([1.5]))
 MIXED = Plates(np.array([0, 2, 3]), np.arange(3), [(np.array([0, 2]), SECTORS), (np.array([1]), SEGMENTS)])
-EACH = (AnnularSector(0.05, 0.2, 100.0, 1.2), Segment(0.03, 0.25, 300.0, 1.5), AnnularSector(0.0, 0.3, 200.0, 0.7))
+SINGLE_PLATES = (
+    AnnularSector(0.05, 0.2, 100.0, 1.2),
+    Segment(0.03, 0.25, 300.0, 1.5),
+    AnnularSector(0.0, 0.3, 200.0, 0.7),
+)
 
 
 @pytest.mark.parametrize("name", ["unbalance", "mass", "lever", "inertia"])
@@ -17,7 +21,7 @@ def test_figures_are_those_of_each_plate(name: str) -> None:
     # property, along any leading axes
     angle = np.array([[0.1, 0.2, 0.3], [0.7, 0.6, 0.5]])
     actual = getattr(MIXED, name)(angle)
-    for n, plate in enumerate(EACH):
+    for n, plate in enumerate(SINGLE_PLATES):
         assert actual[:, n] == pytest.approx(getattr(plate, name)(angle[:, n]), rel=1e-14)
 
 

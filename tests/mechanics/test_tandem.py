@@ -21,7 +21,7 @@ FIRST = SECOND | {"bore_m": 0.5, "suction_pressure_Pa": 1e5, "discharge_pressure
 #: the trunk piston of a stepped cylinder: a full head side, and a ring on the crank side
 HEAD = {"head_area_m2": 0.12, "crank_area_m2": 0.0, **{k: v for k, v in FIRST.items() if not k.endswith("_m")}}
 RING = {"head_area_m2": 0.0, "crank_area_m2": 0.05, **{k: v for k, v in SECOND.items() if not k.endswith("_m")}}
-OUTPUTS_ASKED = ["gas", "piston_force", "rod_loads", "torque", "main_bearings"]
+DYNAMICS = ["gas", "piston_force", "rod_loads", "torque", "main_bearings"]
 
 
 def machine(rows: list[dict[str, Any]], **more: Any) -> dict[str, Any]:
@@ -42,7 +42,7 @@ def machine(rows: list[dict[str, Any]], **more: Any) -> dict[str, Any]:
 
 
 def answer(rows: list[dict[str, Any]], **more: Any) -> AnalyzeAnswer:
-    request = {"machine": machine(rows, **more), "outputs": OUTPUTS_ASKED, "angles": {"step_deg": 5}}
+    request = {"machine": machine(rows, **more), "outputs": DYNAMICS, "angles": {"step_deg": 5}}
     return analyze(AnalyzeRequest.model_validate(request))
 
 
@@ -149,4 +149,4 @@ def test_what_a_cylinder_of_several_lacks_is_named() -> None:
     assert [problem.path for problem in raised.value.problems] == [
         ("machine", "throws", 0, "rows", 0, "cylinders", 1, "relative_clearance")
     ]
-    assert set(OUTPUTS_ASKED) <= set(OUTPUTS)
+    assert set(DYNAMICS) <= set(OUTPUTS)

@@ -5,7 +5,7 @@ from functools import partial
 from service.fairness.connection_limits import ConnectionLimits
 from service.fairness.table import PROBES, connections
 
-_PROBING_EACH, _PROBING = int(PROBES.per_client), int(PROBES.altogether)
+_PER_CLIENT, _ALTOGETHER = int(PROBES.per_client), int(PROBES.altogether)
 
 
 def test_an_address_has_its_share() -> None:
@@ -27,10 +27,10 @@ def test_a_proxy_stands_for_many_and_a_network_of_ipv6_for_one() -> None:
 def test_who_asks_for_health_takes_the_place_of_who_held_it_longest() -> None:
     doors = ConnectionLimits(connections(0, 0), ())
     gone: list[str] = []
-    for k in range(_PROBING_EACH + 2):
+    for k in range(_PER_CLIENT + 2):
         doors.probe("10.0.0.1", partial(gone.append, f"a{k}"))
     assert gone == ["a0", "a1"]
-    for k in range(_PROBING - _PROBING_EACH + 1):
+    for k in range(_ALTOGETHER - _PER_CLIENT + 1):
         doors.probe(f"10.0.1.{k}", partial(gone.append, f"b{k}"))
     # the address that has the most gives one up
     assert gone == ["a0", "a1", "a2"]
@@ -42,7 +42,7 @@ def test_what_has_ended_is_forgotten() -> None:
     def give_up() -> None:
         raise AssertionError("it is gone")
 
-    for _ in range(10 * _PROBING):
+    for _ in range(10 * _ALTOGETHER):
         doors.probe("10.0.0.1", give_up)
         doors.probed("10.0.0.1", give_up)
         assert doors.enter("10.0.0.1")

@@ -134,13 +134,13 @@ def test_many_who_look_without_end_leave_the_process_most_of_its_time() -> None:
         looks, end = SingleFlight(FairScheduler().turn), time.monotonic() + 0.4
         taken: dict[str, list[float]] = {f"client {k}": [] for k in range(clients)}
 
-        async def ask(who: str, what: int) -> None:
+        async def ask(who: str, place: int) -> None:
             while time.monotonic() < end:
-                taken[who].append(await looks.at(who, what, look))
+                taken[who].append(await looks.at(who, place, look))
 
         # two of each, so that one waits while the other is answered
         begun = time.monotonic()
-        await asyncio.gather(*(ask(who, what) for who in taken for what in range(2)))
+        await asyncio.gather(*(ask(who, place) for who in taken for place in range(2)))
         return sum(map(sum, taken.values())) / (time.monotonic() - begun)
 
     # analytic: a look of c and a rest of 3 c for each that waits; a busy machine makes it less

@@ -13,7 +13,7 @@ from schemas.machine.balance_quality import BalanceQuality
 from schemas.request.requests import AnalyzeRequest, OptimizeRequest
 from service.report.chapters.answers import analyzed
 
-ASKED = {"grade_mm_s": 6.3, "mass_kg": 200.0, "centre_of_mass_m": 0.1, "plane_a_m": -0.3, "plane_b_m": 0.5}
+QUALITY = {"grade_mm_s": 6.3, "mass_kg": 200.0, "centre_of_mass_m": 0.1, "plane_a_m": -0.3, "plane_b_m": 0.5}
 OMEGA = 100.0
 
 
@@ -35,7 +35,7 @@ def machine(**rest: Any) -> dict[str, Any]:
             {"name": name, "position_m": place, "counterweight_radius_m": 0.1, "max_mass_kg": 9}
             for name, place in (("a", 0.0), ("b", 0.2))
         ],
-        "balance_quality": ASKED,
+        "balance_quality": QUALITY,
         **rest,
     }
 
@@ -105,7 +105,7 @@ def test_none_is_asked_for() -> None:
 @pytest.mark.parametrize("centre", [-0.3, 0.5, 0.6])
 def test_planes_stand_on_both_sides(centre: float) -> None:
     with pytest.raises(ValidationError) as caught:
-        BalanceQuality.model_validate({**ASKED, "centre_of_mass_m": centre})
+        BalanceQuality.model_validate({**QUALITY, "centre_of_mass_m": centre})
     assert caught.value.errors()[0]["ctx"]["problems"][0].path == ("centre_of_mass_m",)
 
 

@@ -28,7 +28,7 @@ _ROUNDING = 1e-9
 #: relative: what a mass may exceed its limit by, as the verdict has it
 _OVER = 1e-9
 #: relative: what a peak may exceed its ceiling by, as the verdict has it
-_KEPT = 1e-7
+_SLACK = 1e-7
 #: seconds of a search, where a request says nothing
 TIME_LIMIT_S = 0.5
 
@@ -205,5 +205,5 @@ def _wrong_ceilings(request: OptimizeRequest, answer: OptimizeAnswer) -> Iterato
     )
     for field, peak, before in entry:
         allowed = getattr(goal, field)
-        if allowed is not None and peak > allowed + _KEPT * max(before, allowed):
+        if allowed is not None and peak > allowed + _SLACK * max(before, allowed):
             yield f"{field} is not kept: {peak} > {allowed}"

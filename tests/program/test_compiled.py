@@ -28,12 +28,12 @@ from tests.program.cases import COMBINATIONS, optimum, random_statement, stacked
 
 WEBS = 4
 _HARD = {case.name: case for case in all_cases()}
-_KNOWN = stored.read()
+_RECORDS = stored.read()
 #: those that have an optimum
 _REFERENCED = [
     case
     for case in _HARD.values()
-    if _KNOWN[stored.digest(case.body)].feasible and 0 < len(case.body["machine"].get("webs", ())) <= 8
+    if _RECORDS[stored.digest(case.body)].feasible and 0 < len(case.body["machine"].get("webs", ())) <= 8
 ]
 
 
@@ -125,7 +125,7 @@ def test_bounds_are_below_the_reference(case: Case) -> None:
     problem = problem.only(problem.limits.reach > 0)
     if problem.limits.radius.size == 0:
         return
-    expected, stages = _KNOWN[stored.digest(case.body)], run(problem)
+    expected, stages = _RECORDS[stored.digest(case.body)], run(problem)
     assert expected.objective is not None
     unit = float(yardstick(problem)) * square
     slack = 1e-13 * unit + 16 * float(expected.noise)
@@ -141,7 +141,7 @@ def test_fifty_digits_prove_what_double_precision_cannot(limit: str) -> None:
     """Independent (100-digit reference): two webs 1e-9 m apart, against each other."""
     name = f"found/only-two-1e-09-apart-limits-{limit}"
     problem, square = formulated(_HARD[name])
-    expected = _KNOWN[stored.digest(_HARD[name].body)]
+    expected = _RECORDS[stored.digest(_HARD[name].body)]
     alone = problem.alone()
     double, fifty = (
         stage_solutions(alone, share(alone), share(alone), True),

@@ -237,10 +237,10 @@ def test_programs_of_different_form_are_solved_apart() -> None:
     batch = stacked([problems[k] for k in (0, 1, 2, 3, 0)])
     reach, unit = np.minimum(batch.limits.reach, 10.0), np.ones(5)
     forms = discs_of(batch, reach, unit, 0.0)
-    assert [np.ravel(which).tolist() for which, _, _ in forms] == [[1], [3], [2], [0, 4]]
+    assert [np.ravel(indices).tolist() for indices, _, _ in forms] == [[1], [3], [2], [0, 4]]
     assert [budgeted for _, budgeted, _ in forms] == [False, True, False, True]
-    ((which, budgeted, _),) = discs_of(batch.subset(np.array([0, 4])), reach[:2], unit[:2], 0.0)
-    assert which is None
+    ((indices, budgeted, _),) = discs_of(batch.subset(np.array([0, 4])), reach[:2], unit[:2], 0.0)
+    assert indices is None
     assert budgeted
     together = in_discs(batch)
     for n, k in enumerate((0, 1, 2, 3, 0)):

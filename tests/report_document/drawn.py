@@ -32,7 +32,7 @@ TABLE = Path(__file__).with_name("drawn.txt")
 #: of a long line its beginning, and every so manieth of its points
 _BEGINNING, _EVERY = 8, 17
 #: what every shape says
-_SAID_OF_ALL = r' (?:xmlns="[^"]*"|fill="none"|stroke-linejoin="round"|stroke="none"|/>$)'
+_COMMON_ATTRIBUTES = r' (?:xmlns="[^"]*"|fill="none"|stroke-linejoin="round"|stroke="none"|/>$)'
 
 _TURN = [10.0 * k for k in range(36)]
 _MACHINE = ReciprocatingMachine.model_validate(
@@ -52,7 +52,7 @@ def shapes(svg: str) -> Iterator[str]:
     for line in re.sub(r"(</?(?:g|text|path|circle)\b)", r"\n\1", svg).splitlines():
         # what says nothing but that something ends
         if line.strip() and line not in ("</text>", "</g>", "</g></svg>", "</text></svg>"):
-            yield re.sub(_SAID_OF_ALL, "", re.sub(r'(?<= d=")[^"]*', _some, line)).strip()
+            yield re.sub(_COMMON_ATTRIBUTES, "", re.sub(r'(?<= d=")[^"]*', _some, line)).strip()
 
 
 def _some(path: re.Match[str]) -> str:

@@ -69,7 +69,7 @@ def test_every_kind_of_figure_of_the_answer_is_in_the_table() -> None:
 
 
 #: in the name of a leaf, and in every label that shows it
-SAID = {
+SENTENCES = {
     r"_Nm\b": r"N m\b|couple|moment|objective",
     r"_N\b": r"\bN\b|value|remaining|gas|inertia|friction|sum|side|tangential|radial|largest|smallest",
     r"_Pa\b": r"\bPa\b",
@@ -107,9 +107,9 @@ def test_labels_say_what_the_names_of_the_leaves_say() -> None:
     labels = [
         (name, place[2:].rstrip("'")) for name, where in FOLLOWS.items() for place in where if place.startswith("= ")
     ]
-    values = [(text, name, label) for name, label in labels for text in SAID if re.search(text, name)]
+    values = [(text, name, label) for name, label in labels for text in SENTENCES if re.search(text, name)]
     assert len(values) > 150
-    assert [(name, label) for text, name, label in values if not re.search(SAID[text], label)] == []
+    assert [(name, label) for text, name, label in values if not re.search(SENTENCES[text], label)] == []
 
 
 def test_fields_in_each_other_s_place_are_noticed() -> None:

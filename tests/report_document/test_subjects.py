@@ -11,7 +11,7 @@ import pytest
 from tests.night import part
 from tests.report_document.follow import stored
 from tests.report_document.subjects import NAMES, TABLE, subject_of
-from tests.report_document.test_follows import SAID
+from tests.report_document.test_follows import SENTENCES
 
 PLACES = stored(TABLE)
 
@@ -38,6 +38,6 @@ def test_labels_say_what_the_names_of_the_leaves_say() -> None:
     assert [
         (leaf, label)
         for leaf, label in labels
-        for name, right in SAID.items()
+        for name, right in SENTENCES.items()
         if re.search(name, leaf) and not re.search(right, label)
     ] == []

@@ -36,7 +36,7 @@ def test_each_version_is_what_the_service_answers_for_it_alone() -> None:
         versions=[{"name": "as built", "counterweights": FITTED}, {"name": "600 rpm", "machine": faster(600)}],
     )
     figures, weights, differences = tables(request)
-    this = optimize(request_of("2d12"))
+    own = optimize(request_of("2d12"))
     built = analyze(AnalyzeRequest(machine=request.machine, counterweights=request.versions[0].counterweights or ()))
     answer = optimize(request_of("2d12", machine=faster(600)))
     force = [cell.value for cell in figures.rows[1][1:] if isinstance(cell, Number)]
@@ -44,7 +44,7 @@ def test_each_version_is_what_the_service_answers_for_it_alone() -> None:
     # independent: the same through their own doors
     assert force == [
         left.force.peak_N
-        for residual in (this.residual, built.residual, answer.residual)
+        for residual in (own.residual, built.residual, answer.residual)
         if (left := residual.after) is not None
     ]
     # analytic: forces go with the square of the speed, 1.44, and the counterweights are the same

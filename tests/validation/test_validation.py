@@ -60,14 +60,14 @@ def test_every_row_of_the_sources_contents_has_its_place() -> None:
     _, words = DOCUMENT.read_text().split("\n## Where each part of the sources is computed\n")
     rows = re.findall(r"^\| (?!source|---)(.+?) \| (.+?) \|$", words, re.MULTILINE)
     source, of_source = "", dict[str, list[str]]()
-    for what, place in rows:
+    for topics_of_row, place in rows:
         assert place
-        source = next((name for name in CONTENTS if re.match(rf"{name}\b", what)), source)
-        of_source.setdefault(source, []).append(what)
+        source = next((name for name in CONTENTS if re.match(rf"{name}\b", topics_of_row)), source)
+        of_source.setdefault(source, []).append(topics_of_row)
     assert list(of_source) == list(CONTENTS)
     for name, topics in CONTENTS.items():
-        parts = {part.strip() for what in of_source[name] for part in re.split(r"[;:]", what)}
-        lost = [topic for topic in topics if not any(topic in what for what in (*of_source[name], *parts))]
+        parts = {part.strip() for text in of_source[name] for part in re.split(r"[;:]", text)}
+        lost = [topic for topic in topics if not any(topic in text for text in (*of_source[name], *parts))]
         assert not lost, (name, lost)
 
 

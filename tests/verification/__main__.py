@@ -24,9 +24,9 @@ def tally(request: Any, answer: Any, every: int) -> tuple[Counter[str], list[Fal
     for n, path in enumerate(places):
         if n % every == 0:
             for forgery in falsified(answer, path, places[n + 1] if n + 1 < len(places) else None):
-                what = outcome(request, forgery, silent())
-                counts[what] += 1
-                if what == "missed":
+                fate = outcome(request, forgery, silent())
+                counts[fate] += 1
+                if fate == "missed":
                     missed.append(forgery)
     return counts, missed
 

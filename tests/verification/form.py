@@ -13,8 +13,8 @@ from schemas.match.answer import MatchAnswer
 #: parts of which nothing is looked at, whatever they hold
 _UNKNOWN = {"trades", "counts"}
 #: outputs of which the checker knows the form
-_KNOWN = ("hodograph", "orders", "foundation_loads", "stages")
-_OUTPUTS = {*OutputFields.model_fields} - {*_KNOWN}
+_FORMS = ("hodograph", "orders", "foundation_loads", "stages")
+_OUTPUTS = {*OutputFields.model_fields} - {*_FORMS}
 #: evidence without which no more than less is proven, as in answers of before
 _EVIDENCE = {"share"}
 

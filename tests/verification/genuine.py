@@ -34,7 +34,7 @@ _TIME_LIMIT = 0.3
 #: of so many random machines one is asked with masses that are off as well
 _OFF = 5
 #: answers after which it is said how many there are
-_TOLD = 100
+_REPORT_STEP = 100
 
 
 class Kind(NamedTuple):
@@ -125,7 +125,7 @@ def run(
             new = [f"{question.name}: {claim['claim']} {claim['margin']} {claim['where']}" for claim in broken]
             faults += new
             print(*new, sep="\n", end="\n" if new else "", flush=True)
-            if verdicts.total() % _TOLD == 0:
+            if verdicts.total() % _REPORT_STEP == 0:
                 print(f"{verdicts.total()} {dict(verdicts)}", file=sys.stderr, flush=True)
     return verdicts, faults
 

@@ -174,15 +174,15 @@ def test_requests_with_every_field_and_over_the_whole_turn() -> None:
 
 _ANSWER = json.loads(optimize(OptimizeRequest.model_validate(SINGLE["ceilings"])).model_dump_json())
 
-_ASKED_AND_ANSWERED = {"request": SINGLE["ceilings"], "answer": _ANSWER}
-_PLACES = [path for path in paths(_ASKED_AND_ANSWERED) if path]
+_PAIR = {"request": SINGLE["ceilings"], "answer": _ANSWER}
+_PLACES = [path for path in paths(_PAIR) if path]
 
 
 @by_day(8)
 @given(st.lists(st.tuples(st.sampled_from(_PLACES), JSON), min_size=1, max_size=3))
 def test_nothing_that_is_sent_raises(changes: list[tuple[tuple[str | int, ...], Any]]) -> None:
     """Any JSON in any place of request and answer is judged, or refused by name."""
-    variant: Any = _ASKED_AND_ANSWERED
+    variant: Any = _PAIR
     for path, value in changes:
         variant = replaced(variant, path, value)
     judged(variant["request"], variant["answer"])

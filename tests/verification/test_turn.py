@@ -122,17 +122,17 @@ def test_multipliers_that_are_too_long_prove_no_more() -> None:
     assert _claims(body, answer)["lower_bound"] == "broken"
 
 
-@pytest.mark.parametrize("what", ["kinematics", "masses"])
-def test_what_is_not_covered_is_named(what: str) -> None:
+@pytest.mark.parametrize("field", ["kinematics", "masses"])
+def test_what_is_not_covered_is_named(field: str) -> None:
     body = copy.deepcopy(_KINDS["bearings"])
     where = {"masses": "/request/tolerances/reciprocating_mass_relative", "kinematics": "/request/fidelity/kinematics"}
-    if what == "masses":
+    if field == "masses":
         body["tolerances"] = {"reciprocating_mass_relative": 0.01}
     else:
         body["fidelity"] = {"kinematics": "order_2"}
     answer = json.loads(_answer_text("bearings"))
     fields = {claim["claim"]: claim for claim in checker().verify(body, answer)["claims"]}
-    assert (fields["request"]["verdict"], fields["request"]["where"]) == ("not covered", where[what])
+    assert (fields["request"]["verdict"], fields["request"]["where"]) == ("not covered", where[field])
     assert "lower_bound" not in fields
 
 

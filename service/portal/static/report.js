@@ -76,7 +76,7 @@ function details() {
   const choice = h("div", {});
   const told = () => {
     const names = [head.project, head.number, head.revision && `revision ${head.revision}`].filter(Boolean);
-    summary.textContent = [`Its head: ${names.join(", ") || "empty"}`, compared.size ? `compared with ${[...compared].join(", ")}` : ""].filter(Boolean).join("; ");
+    summary.textContent = [`Head of the report: ${names.join(", ") || "empty"}`, compared.size ? `compared with ${[...compared].join(", ")}` : ""].filter(Boolean).join("; ");
   };
   const typed = (name) => (event) => {
     head[name] = event.target.value;

@@ -28,7 +28,7 @@ def main():
         "a smaller pin": [(document.Parameters, "B2", "=70 mm")],
     }
     for name, changes in mutations.items():
-        before = [(value, what, value_of(value, what)) for value, what, _ in changes]
+        before = [(value, attribute, value_of(value, attribute)) for value, attribute, _ in changes]
         apply(document, changes)
         texts[name] = status_of(machine)
         apply(document, before)

@@ -117,7 +117,7 @@ def with_rods() -> Body:
 OBJECTIVE = EXAMPLE["request"]["objective"]
 FIXED = {"mass_kg": 30, "angle_deg": 200, "radius_m": 0.26}
 GROUPS = [{"name": "ends", "webs": ["1a", "4b"]}]
-ASKED = {
+PROBLEMS = {
     "as it is": body(),
     "coarse": body(10, 30),
     "group": body(8, 20, machine=changed(web_groups=GROUPS)),
@@ -149,9 +149,9 @@ ASKED = {
 }  # fmt: skip
 
 
-@pytest.mark.parametrize("name", every(2 if ALL else 4, ASKED))
+@pytest.mark.parametrize("name", every(2 if ALL else 4, PROBLEMS))
 def test_the_best_of_all_roundings(name: str) -> None:
-    fields = ASKED[name]
+    fields = PROBLEMS[name]
     answer = on_steps(fields)
     assert answer.status == "optimal", answer.status_reason
     assert answer.certificate is not None

@@ -41,7 +41,7 @@ function make(description, value, required, change) {
   const { kind } = description;
   if (kind === "choice") return choice(description, value, required, change);
   if (kind === "boolean") return boolean(description, value, change);
-  if (kind === "numbers") return numbers(value, change);
+  if (kind === "numbers") return numbers(description, value, change);
   const long = kind === "text" && description.longest > 200;
   const mandatory = required && !description.nullable;
   const placeholder = mandatory ? undefined : written(description.fallback) || meaning(description);
@@ -80,9 +80,10 @@ function boolean({ fallback }, value, change) {
 // between semicolons, tabs and commas with a space a comma is decimal
 const parts = (text) => (/[;\t]/.test(text) ? text.split(/[;\t]/) : /,\s/.test(text) ? text.split(/,\s+/) : text.split(/[\s,]+/)).map((part) => part.trim()).filter(Boolean);
 
-function numbers(value, change) {
+function numbers(description, value, change) {
+  const line = (values) => values.map(written).join(", ");
   const input = h("input", {
-    type: "text", value: Array.isArray(value) ? value.map(written).join(", ") : written(value), placeholder: "none", autocomplete: "off",
+    type: "text", value: Array.isArray(value) ? line(value) : written(value), placeholder: line(description.fallback ?? []) || meaning(description), autocomplete: "off",
     input: () => change(input.value.trim() ? parts(input.value.trim()).map((part) => read(part)) : undefined),
   });
   return input;
