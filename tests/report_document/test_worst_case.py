@@ -39,12 +39,12 @@ def test_conflicting_scenarios_are_named_in_the_report() -> None:
 
 
 def test_no_compromise_seems_to_be_below_what_is_certified() -> None:
-    """The compromise is shown as the machine is given, below what the worst case is certified to be: both say so."""
+    """The compromise is shown on the unchanged machine, below what the worst case is certified to be: both say so."""
     request = ReportRequest.model_validate({**BODY, "objective": {"force_ceiling_N": 90}})
     document, why = html(report(request)).decode(), optimize(request).infeasibility
     assert why is not None
     assert why.closest.first_order.force.peak_N < why.smallest_force_lower_bound_N
-    for words in ("Smallest feasible peaks, in the worst case", "best compromise, as the machine is given"):
+    for words in ("Smallest feasible peaks, in the worst case", "best compromise, on the unchanged machine"):
         assert words in document
     # all that an infeasible answer certifies is of the worst case
     assert "without the other ceiling, in the worst case: the force is never below" in document

@@ -136,7 +136,7 @@ def _worst_case_fields(request: AccuracyRequest, task: Task, scene: Prepared) ->
 
 
 def _revolution_fields(request: AccuracyRequest, task: Task, scene: Prepared) -> dict[str, object]:
-    """Those of goals over a revolution, in the worst case where more counts than the machine as it is given."""
+    """Those of goals over a revolution, in the worst case where more counts than the unchanged machine."""
     steps = Steps(task, scene, np.ones(len(task.space.machine.webs), bool))
     whole, start = steps.robust(SHARPEST, SOLVE_S).goals().anywhere, time.perf_counter()
     optimum = steps.whole(steps.robust(SHARPEST, SOLVE_S))

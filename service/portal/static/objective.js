@@ -59,7 +59,7 @@ export function refusal({ objective, scenarios, tolerances }, { conflict, smalle
   const names = conflict.map((field) => limited(field, closest.responses));
   const [mostForce, mostMoment] = [objective?.force_ceiling_N, objective?.moment_ceiling_Nm];
   const asked = [mostForce == null ? null : `${written(mostForce, "N")} of force`, mostMoment == null ? null : `${written(mostMoment, "N m")} of moment`].filter(Boolean);
-  // of the compromise the answer has the first order of the machine as it is given, which may be below them
+  // of the compromise the answer has the first order of the unchanged machine, which may be below them
   const worst = scenarios?.length || Object.values(tolerances ?? {}).some((off) => off) ? "in the worst case " : "";
   const every = objective?.orders === "all" ? " of all orders" : "";
   // what has no ceiling is not computed
@@ -73,7 +73,7 @@ export function refusal({ objective, scenarios, tolerances }, { conflict, smalle
       const unit = one.ceiling_field.endsWith("_Nm") ? "N m" : "N";
       return `By itself the ${one.response.replace(":", " ")} can ${worst}come down to ${figure(one.smallest)} ${unit}; the ceiling of the ${limited(one.ceiling_field, closest.responses)} asks for ${figure(one.ceiling)} ${unit}.`;
     }),
-    `Drawn is the closest compromise: ${figure(nearForce.peak_N)} N and ${figure(nearMoment.peak_Nm)} N m of first order${worst ? " on the machine as it is given" : ""}.`,
+    `Drawn is the closest compromise: ${figure(nearForce.peak_N)} N and ${figure(nearMoment.peak_Nm)} N m of first order${worst ? " on the unchanged machine" : ""}.`,
   ];
 }
 

@@ -99,9 +99,9 @@ def reachable(request: OptimizeRequest, why: Infeasibility) -> Iterator[Block]:
         yield Paragraph(f"The ceilings of the scenarios {', '.join(why.scenarios)} conflict.", "warning")
     closest = why.closest.first_order
     worst = _worst_case(request)
-    # such a peak stands above that of the compromise, which is of the first order of the machine as it is given
+    # such a peak stands above that of the compromise, which is of the first order of the unchanged machine
     every = _of_all_orders(request)
-    kind = f"{every and ', first order'}{worst and ', as the machine is given'}"
+    kind = f"{every and ', first order'}{worst and ', on the unchanged machine'}"
     yield table(
         f"Smallest feasible peaks{every}{worst}",
         ["case", "#peak force, N", "#peak moment, N m"],
