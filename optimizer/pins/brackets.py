@@ -139,7 +139,7 @@ class _Middles:
     rounding: Real
     load: Real
     rotation: Real
-    moment: Real
+    torque: Real
     slope: Real
     is_rigid: bool
 
@@ -162,7 +162,7 @@ class _Middles:
             rounding=_ROUNDING * parts,
             load=contact.load / stiffest,
             rotation=rotation,
-            moment=moment[:, None] / (size * stiffest),
+            torque=moment[:, None] / (size * stiffest),
             slope=intervals.slope[:, None] / (size * stiffest),
             is_rigid=pattern.is_rigid,
         )
@@ -229,7 +229,7 @@ def _trial(middles: _Middles) -> _Trial:
     deviation = kink + np.where(bears, stiffness * rest, 0.0) + np.abs(load - law)
     ends = np.maximum(np.abs(strain + half * rate), np.abs(strain - half * rate))
     carried = np.abs(load) + np.abs(law) + half * np.abs(rise) + deviation
-    moment = np.abs(middles.moment - _sum(load * lever))
+    moment = np.abs(middles.torque - _sum(load * lever))
     moment = moment + half * np.abs(middles.slope - _sum(load * swing + rise * lever))
     moment = moment + _sum(
         half**2 * np.abs(rise * swing) + 0.5 * half**2 * reach * (np.abs(load) + half * np.abs(rise))
