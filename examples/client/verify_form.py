@@ -1,6 +1,6 @@
 """The fields that an answer has: one that lacks a field of its form says less than it seems to, and is broken.
 
-Each line says of which objects, by the end of their places, and what they hold; a field may hold null.
+Each line says of which objects, by the end of their places, and what they hold; some fields may hold null.
 """
 
 from __future__ import annotations
@@ -70,6 +70,11 @@ fronts: max_total_mass_kg status points reason knee ends scale implied_max_mass_
 points: status status_reason force_peak_N moment_peak_Nm weighted_force_peak_N weighted_moment_peak_Nm worst_case
   total_mass_kg counterweights balance_shafts balance_shafts_mass_kg active_limits certificate multipliers
 points/worst_case: force_peak_N moment_peak_Nm
+trades: max_total_mass_kg status reason responses points infeasibility
+trades/responses: response unit without_counterweights smallest lower_bound yardstick
+trades/points: status status_reason values nominal_values beaten_by force_peak_N moment_peak_Nm total_mass_kg
+  counterweights balance_shafts balance_shafts_mass_kg certificate
+trades/points/certificate: corner relative_gap mass_lower_bound_kg mass_relative_gap cuts rounds method
 points/certificate: force_N moment_Nm relative_gap yardstick mass_lower_bound_kg mass_relative_gap mass_yardstick_kg
   mass_force_limit_N mass_moment_limit_Nm implied_max_mass_kg method
 ends: smallest_force_N smallest_force_lower_bound_N moment_at_smallest_force_Nm smallest_moment_Nm
@@ -94,6 +99,41 @@ stages/acting stages/left: quantity order frequency_Hz unit peak minor motion di
 stages/iron: position_m rotating_x_kg_m rotating_y_kg_m reciprocating_x_kg_m reciprocating_y_kg_m
 stages/rules_of_thumb: name source transferred_share total_mass_radius_kg_m peak peak_along peak_across
 """
+#: which fields of these objects may hold null
+_NULL = """
+.: balance_quality balance_shafts_mass_kg certificate infeasibility price_of_robustness sensitivity total_mass_kg
+  worst_case
+balance_quality hodograph orders turn: after
+foundation_loads: after as_built
+stages: left remaining
+stages/acting stages/left: direction_deg
+match/rows: name
+counterweights nominal_counterweights: angle_from_crank_deg shape throw
+shape: chord_height_m
+shadow_prices: web
+alternatives: lower_bound
+worst_case: bearing_peak_N
+price_of_robustness: nominal_lower_bound nominal_multipliers nominal_optimum nominal_optimum_worst_case
+ceilings terms: angle_deg scenario
+residual: after turn
+residual/responses: after turn_after turn_before
+certificate: continuous_lower_bound cuts gap lower_bound mass_lower_bound_kg mass_objective_limit mass_relative_gap
+  mass_yardstick_kg nodes relative_gap rounds
+goals: lower_bound multipliers
+certificate/multipliers points/multipliers: mass
+ends smallest: multipliers
+infeasibility/multipliers: conflict
+balance_rate: name rate sideways
+fronts: ends infeasibility knee max_total_mass_kg reason scale
+points: balance_shafts_mass_kg multipliers worst_case
+points/certificate: force_N mass_force_limit_N mass_lower_bound_kg mass_moment_limit_Nm mass_relative_gap
+  mass_yardstick_kg moment_Nm relative_gap
+trades: max_total_mass_kg reason infeasibility
+trades/points: nominal_values beaten_by balance_shafts_mass_kg
+trades/points/certificate: relative_gap mass_lower_bound_kg mass_relative_gap
+match: balance_shafts_mass_kg
+match/certificate: gap lower_bound relative_gap
+"""
 #: outputs whose form is known here, though none but those that are requested are in an answer
 OUTPUTS = ("hodograph", "orders", "foundation_loads", "stages")
 #: outputs that may be empty although they are requested
@@ -109,18 +149,20 @@ def _read(table: str) -> Dict[Tuple[str, ...], Tuple[str, ...]]:
     return fields
 
 
-FORM = _read(_TABLE)
+FORM, NULL = _read(_TABLE), _read(_NULL)
 
 
-def names(parts: Tuple[str, ...]) -> Tuple[str, ...]:
+def names(parts: Tuple[str, ...], table: Dict[Tuple[str, ...], Tuple[str, ...]] = FORM) -> Tuple[str, ...]:
     """Fields of the object at a place, without the numbers of lists; none where nothing is said of it."""
-    if not parts:
-        return FORM[()]
-    return next((FORM[parts[n:]] for n in range(len(parts)) if parts[n:] in FORM), ())
+    key = next((parts[n:] for n in range(len(parts)) if parts[n:] in FORM), None if parts else ())
+    return () if key is None else table.get(key, ())
 
 
 def form(answer: Place, kind: Tuple[str, ...] = ()) -> Iterator[Claim]:
-    """No object lacks a field. ``kind``: what places begin with, where it is not the answer to one request."""
+    """No object lacks a field, nor holds null in one that always has a value.
+
+    ``kind``: what places begin with, where it is not the answer to one request.
+    """
     yield "form", answer, ONE, ONE
     left: List[Tuple[Any, Tuple[Union[str, int], ...]]] = [(answer.value, ())]
     while left:
@@ -130,7 +172,8 @@ def form(answer: Place, kind: Tuple[str, ...] = ()) -> Iterator[Claim]:
             left.extend((item, (*path, k)) for k, item in enumerate(value))
         elif isinstance(value, dict):
             fields = names(parts)
-            missing = [name for name in fields if name not in value]
+            allowed = names(parts, NULL)
+            missing = [name for name in fields if name not in value or (value[name] is None and name not in allowed)]
             if missing:
                 yield "form", Place(value, *answer.path, *path, missing[0]), -ONE, ONE
             also = () if path or kind else tuple(name for name in OUTPUTS if name in value)

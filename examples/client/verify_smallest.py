@@ -9,14 +9,17 @@ from verify_cases import CASES, scenarios
 from verify_claims import Claims, covered, same
 from verify_cuts import Part
 from verify_first import SMALLEST, component, implied_alone
+from verify_levels import WIDE
 from verify_machine import NAMES, ON_FRAME, Machine
 from verify_multipliers import Program, by_cuts
-from verify_numbers import ABOUT_ONE, SPECK, NotCovered, Number, Place, largest, real, total
+from verify_numbers import ABOUT_ONE, ONE, SPECK, NotCovered, Number, Place, largest, real, total
 from verify_program import CEILINGS
 
 #: fields of ceilings on loads by the responses that they limit
 LOADED = {"bearing": ("bearing_ceiling_N", "specific_load_ceiling_Pa"), "bending": ("bending_ceiling_Nm",)}
 KINDS = (*ON_FRAME, "bearing", "bending", "roll")
+#: ceilings of peaks that are in an answer without a list
+OWN = tuple(CEILINGS[name] for name in NAMES)
 #: relative: a specific load stands as a force, by the area of its bearing
 PRINTED = 1e-12
 
@@ -37,6 +40,13 @@ class SmallestPeaks:
             if lowest and proof:
                 yield from covered(self._peak(f"smallest_{name}", name, lowest, attained, proof))
         goal = self.request / "objective"
+        every = (goal / "orders").text("first", "all", default="first") == "all"
+        entries = {(entry / "ceiling_field").value for entry in self.verdict / "smallest"}
+        # a row of a sweep has no list
+        for item in self.verdict / "conflict" if "smallest" in self.verdict.value else ():
+            # force and moment of the first order have fields of their own
+            if every or item.value not in OWN:
+                yield "smallest", self.verdict / "smallest", ONE if item.value in entries else -ONE, ONE
         for entry in self.verdict / "smallest":
             name = (entry / "response").text()
             if of_cases or name not in CEILINGS or not goal / CEILINGS[name]:
@@ -71,6 +81,9 @@ class SmallestPeaks:
         value, above = attained.number(), attained.number() - lowest.number()
         yield claim, attained, above + SPECK * abs(value), abs(value)
         size = largest(*(_at_rest(part, name) for part in program.parts.values()))
+        if bound[0] is not None and not bound[1] and not program.mixed:
+            # no counterweights come below what is proven
+            yield claim, attained, value + SPECK * abs(value) + real(WIDE) * size - bound[0], abs(value)
         room: Optional[Number] = size * real(SMALLEST) + SPECK * abs(value) - above
         if room is not None and room.high < 0:
             # where rounding of what the limits allow is more than that share, nothing is told

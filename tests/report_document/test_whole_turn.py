@@ -112,13 +112,13 @@ def test_warnings_and_balance_rates_stand_in_the_report() -> None:
     [
         ({"orders": "all"}, {"/answer/certificate/mass_yardstick_kg"}),
         ({"bearing_weight": 1}, {"/answer/sensitivity"}),
-        ({"bearing_ceiling_N": 1e3}, {"/answer/infeasibility/smallest"}),
+        ({"bearing_ceiling_N": 1e3}, set()),
     ],
 )
 def test_the_checker_names_what_it_does_not_cover(objective: dict[str, Any], places: set[str]) -> None:
     """What has no proof of its own in an answer over a revolution is said, and nothing else is left open."""
     request = request_of(inline_six(), **objective)
     verdict = checker().verify(json.loads(request.model_dump_json()), json.loads(optimize(request).model_dump_json()))
-    assert verdict["verdict"] == "not covered"
+    assert verdict["verdict"] == ("not covered" if places else "held")
     assert {*verdict["not_covered"]} == places
     assert not [claim for claim in verdict["claims"] if claim["verdict"] == "broken"]

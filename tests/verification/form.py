@@ -11,7 +11,7 @@ from schemas.front.pareto import ParetoAnswer
 from schemas.match.answer import MatchAnswer
 
 #: parts of which nothing is looked at, whatever they hold
-_UNKNOWN = {"trades", "counts"}
+_UNKNOWN = {"counts"}
 #: outputs of which the checker knows the form
 _FORMS = ("hodograph", "orders", "foundation_loads", "stages")
 _OUTPUTS = {*OutputFields.model_fields} - {*_FORMS}
@@ -47,7 +47,28 @@ def _models(annotation: Any, path: str) -> list[tuple[str, type[BaseModel]]]:
 
 
 def all_fields() -> dict[str, tuple[str, ...]]:
-    """Of single answers, of matching, and of fronts but for trades of other responses, each by its place."""
+    """Of single answers, of matching, and of fronts but for those of counts, each by its place."""
     fronts = fields(ParetoAnswer, "/pareto").items()
     labels = {path: names for path, names in fronts if not _UNKNOWN & {*path.split("/")}}
     return fields() | fields(MatchAnswer, "/match") | labels
+
+
+def nulls(model: type[BaseModel], path: str = "") -> dict[str, set[str]]:
+    """Names of the fields that may hold null, by the places of their objects."""
+    empty = {
+        path: {
+            field.alias or name
+            for name, field in model.model_fields.items()
+            if type(None) in get_args(field.annotation)
+        }
+    }
+    for name, field in model.model_fields.items():
+        if path or name not in _OUTPUTS:
+            for where, inner in _models(field.annotation, f"{path}/{name}"):
+                empty |= nulls(inner, where)
+    return empty
+
+
+def all_nulls() -> dict[str, set[str]]:
+    """The same of all answers."""
+    return nulls(OptimizeAnswer) | nulls(MatchAnswer, "/match") | nulls(ParetoAnswer, "/pareto")

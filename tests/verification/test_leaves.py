@@ -10,9 +10,9 @@ import pytest
 from service.verification import checker
 from tests import night
 from tests.verification.answers import names, pair
-from tests.verification.checking import is_broken
+from tests.verification.checking import broken, is_broken
 from tests.verification.falsified import deleted, numbers, replaced
-from tests.verification.form import all_fields
+from tests.verification.form import all_fields, all_nulls
 
 #: enough for what has to hold of every kind, and for a test
 KINDS = ("sum", "infeasible", "plates, sectors", "balance quality", "scenarios", "shaking", "front")
@@ -25,6 +25,36 @@ def test_the_form_is_that_of_the_models() -> None:
     for path, fields in all_fields().items():
         parts = tuple(part for part in path.split("/") if part not in ("", "*"))
         assert module.names(parts) == fields, path
+
+
+def test_null_is_where_the_models_have_it() -> None:
+    """Independent: of every field that may hold null, and of no other but where places of one end differ."""
+    checker()
+    module, nullable = sys.modules["verify_form"], all_nulls()
+    tables = {}
+    for path in all_fields():
+        tables[path] = {*module.names(tuple(part for part in path.split("/") if part not in ("", "*")), module.NULL)}
+        assert {*all_fields()[path]} & nullable[path] <= tables[path], path
+    for path, table in tables.items():
+        for name in table:
+            assert any(name in nullable[place] for place, other in tables.items() if other == table), (path, name)
+
+
+@pytest.mark.parametrize("name", KINDS)
+def test_no_number_is_null_that_an_answer_has(name: str) -> None:
+    """Regression: a figure that was replaced by null was held, as nothing was claimed."""
+    request, answer = pair(name)
+    kind, module = ("pareto",) if "fronts" in answer else (), sys.modules["verify_form"]
+    count = 0
+    for path in list(numbers(answer))[::7]:
+        parts = (*kind, *(part for part in path[:-1] if isinstance(part, str)))
+        if path[-1] in module.names(parts) and path[-1] not in module.names(parts, module.NULL):
+            count += 1
+            try:
+                assert any(claim.startswith("form") for claim in broken(request, replaced(answer, path, None))), path
+            except checker().Unreadable:
+                continue
+    assert count > 5
 
 
 @pytest.mark.parametrize("name", KINDS)

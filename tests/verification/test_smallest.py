@@ -97,3 +97,20 @@ def test_a_ceiling_that_nobody_stated_is_broken() -> None:
     wrong = copy.deepcopy(answer)
     wrong["infeasibility"]["smallest"][0]["ceiling_field"] = "specific_load_ceiling_Pa"
     assert is_broken(body, wrong)
+
+
+@pytest.mark.parametrize("kind", ["bearings", "all orders"])
+def test_no_ceiling_in_conflict_is_left_out(kind: str) -> None:
+    body, answer = _exchange(kind)
+    wrong = copy.deepcopy(answer)
+    wrong["infeasibility"]["smallest"] = []
+    assert is_broken(body, wrong)
+
+
+def test_nothing_is_reached_below_what_is_proven() -> None:
+    """A printed bound that is lower than what its multipliers prove hides no value below that."""
+    body, answer = _exchange("bearings")
+    wrong = copy.deepcopy(answer)
+    for field in ("smallest", "lower_bound"):
+        wrong["infeasibility"]["smallest"][0][field] *= 0.99
+    assert is_broken(body, wrong)
