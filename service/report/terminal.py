@@ -33,6 +33,8 @@ _MARKS = {"base": "", "sup": "^", "sub": "_"}
 #: rows of a turn in a coarse table: every 30 degrees, as nearly as the samples allow
 _COARSE_STEPS = 12
 _SIDE_BY_SIDE = 6
+#: characters of a unit at the end of a title, at most
+_LONGEST_UNIT = 8
 
 
 def terminal(chapters: Iterable[Chapter]) -> Group:
@@ -82,7 +84,10 @@ class _Grid:
             grid.box, grid.show_edge, grid.padding = SIMPLE_HEAD, False, (0, 0, 0, 0)
         for column, width in zip(block.columns, widths, strict=True):
             justify: Literal["left", "right"] = "right" if column.numeric else "left"
-            grid.add_column(Text(plain(column.title)), justify=justify, overflow="fold", width=width)
+            title = plain(column.title)
+            if cell_len(title) > width and (unit := _unit(title)):
+                title = f"{title.removesuffix(unit).rstrip()}\n{unit}"
+            grid.add_column(Text(title), justify=justify, overflow="fold", width=width)
         for row in rows:
             grid.add_row(*map(Text, row))
         yield grid
@@ -98,10 +103,18 @@ class _Spread(NamedTuple):
 
 def _spread(title: str, cells: Sequence[str], is_numeric: bool, is_headed: bool) -> _Spread:
     heads = [title] if is_headed else []
-    words = [word for text in (heads if is_numeric else [*heads, *cells]) for word in text.split()]
+    unit = _unit(title) if is_headed else ""
+    texts = [head.removesuffix(unit) for head in heads] + ([] if is_numeric else [*cells])
+    words = [unit, *(word for text in texts for word in text.split())]
     figure = max(map(cell_len, cells), default=1) if is_numeric else 1
     word = max([figure, *map(cell_len, words)])
     return _Spread(figure, word, max([word, *map(cell_len, [*heads, *cells])]))
+
+
+def _unit(title: str) -> str:
+    """What a title ends with and is never broken: N m of "peak moment, N m"; nothing where that is no unit."""
+    unit = title.rpartition(", ")[2]
+    return unit if unit != title and cell_len(unit) <= _LONGEST_UNIT else ""
 
 
 def _widths(columns: Sequence[_Spread], room: int) -> list[int]:

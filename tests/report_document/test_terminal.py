@@ -47,3 +47,15 @@ def test_figures_are_the_last_to_be_broken() -> None:
     lines = _lines(48, 3)
     assert max(map(len, lines)) <= 48
     assert "8.57183e-06" in " ".join(lines).split()
+
+
+def test_a_unit_of_a_title_stands_in_one_piece() -> None:
+    """Where a title does not fit beside others, its unit goes on a line of its own: never N above m."""
+    titles = ["point", *(f"#{name} moment, N m" for name in ("peak", "weighted", "smallest", "certified", "largest"))]
+    output = io.StringIO()
+    front = table("Front", titles, [("0", *(1234.5678,) * 5)])
+    Console(file=output, width=75).print(terminal([Chapter("Front", (front,))]))
+    text = output.getvalue()
+    assert "N m" in text
+    assert not [line for line in text.splitlines() if line.replace("┃", " ").split() == ["m"] * 5]
+    assert all(line.count("N m") in (0, 5) for line in text.splitlines())
