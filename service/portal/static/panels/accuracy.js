@@ -22,6 +22,17 @@ function made(row) {
   return [...cells(row), number(row.total_mass_kg, 4), number(row.pieces), number(row.sizes), row.limits_kept ? "" : "limits broken"];
 }
 
+// Decades alone would leave a narrow axis one figure or none: there 1, 2 and 5 of each have one.
+function ticks(times) {
+  const [least, most] = [Math.log10(Math.min(...times)), Math.log10(Math.max(...times))];
+  if (most - least > 2) return { dtick: 1 };
+  const tickvals = [];
+  for (let decade = Math.floor(least); decade <= Math.ceil(most); decade += 1) {
+    tickvals.push(...[1, 2, 5].map((digit) => Number(`${digit}e${decade}`)));
+  }
+  return { tickvals, ticktext: tickvals.map(String) };
+}
+
 export const accuracy = {
   id: "accuracy", title: "Accuracy against time",
   about: "Every method and setting, timed on this machine just now; down and to the left is better.",
@@ -50,7 +61,7 @@ export const accuracy = {
           hovertemplate: "%{text}: %{x:.3~s} ms, error %{y:.2e}<extra></extra>" };
       }),
       // the names of the methods take their room from narrow plots
-      layout: { height: node.clientWidth < 500 ? 520 : 380, xaxis: { title: "time, ms", type: "log", dtick: 1 }, yaxis: { title: "relative error", type: "log", exponentformat: "power", dtick: 2 } },
+      layout: { height: node.clientWidth < 500 ? 520 : 380, xaxis: { title: "time, ms", type: "log", ...ticks(rows.map((row) => row.time_ms)) }, yaxis: { title: "relative error", type: "log", exponentformat: "power", dtick: 2 } },
       label: `Error against time: ${methods.map((method) => {
         const best = rows.filter((row) => row.method === method).sort((one, other) => one.relative_error - other.relative_error)[0];
         return `${label(method)} ${figure(best.relative_error, 2)} in ${figure(best.time_ms, 3)} ms`;
