@@ -31,8 +31,8 @@ Clearance = Annotated[float, non_negative(1.0), Unit("m")]
 PeakBracket = Annotated[
     tuple[Newtons, Newtons] | None,
     Field(
-        description="the same as a bracket, at least and at most, whatever the samples; null where a dead point has no"
-        " bound, and where errors strain pins at one",
+        description="the same as a bracket, at least and at most, whatever the samples; null where dead points leave"
+        " nothing that bounds the loads",
         examples=[[166.67, 166.67]],
     ),
 ]
@@ -168,7 +168,7 @@ class PinLoad(Model):
         " in peak_bracket_N, or the largest that a search sees (warning peaks_not_certified)",
         examples=[166.67],
     )
-    peak_bracket_N: PeakBracket = None
+    peak_bracket_N: PeakBracket
     peak_angle_deg: Degrees | None = Field(description="first shaft angle of the peak", examples=[90.0])
     compression_from_deg: Degrees | None = Field(
         description="where the pin's compression begins; null if torque or contact leave less than half a revolution",
@@ -230,7 +230,7 @@ class DriveBearingLoad(Model):
     peak_N: Newtons | None = Field(
         description="largest magnitude over a revolution; null where a dead point has no bound", examples=[98.0]
     )
-    peak_bracket_N: PeakBracket = None
+    peak_bracket_N: PeakBracket
     peak_angle_deg: Degrees | None = Field(description="first shaft angle of the peak", examples=[20.0])
 
 
@@ -266,7 +266,7 @@ class PinLoads(Model):
     peak_N: Newtons | None = Field(
         description="largest load of any pin; null where a dead point has no bound", examples=[166.67]
     )
-    peak_bracket_N: PeakBracket = None
+    peak_bracket_N: PeakBracket
     half_turn_mechanism_peak_N: Newtons = Field(
         description="the same for a mechanism whose members bear for half a revolution only, 4 T / (n R) "
         "at the largest torque and the mean radius",

@@ -239,6 +239,7 @@ def test_the_pins_turn(portal: Portal, url: str) -> None:
     for row, peak in enumerate(peaks):
         expect(loads.locator("tbody tr").nth(row).locator("td").first).to_have_text(f"{peak:.5g}")
     assert [number(row[1]) for row in cells(loads)] == pytest.approx(peaks, rel=1e-4)
+    expect(panel).to_contain_text("Peaks are proven for every angle")
     expect(panel.locator(".wait")).to_have_text("")
     panel.get_by_label("stiffness, N/µm, pin 3").fill("soft")
     panel.get_by_label("stiffness, N/µm, pin 3").press("Tab")

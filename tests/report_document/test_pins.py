@@ -53,6 +53,29 @@ def test_dead_points_are_where_a_load_is_nothing() -> None:
     assert "all pins have equal stiffness" in words
 
 
+@pytest.mark.parametrize(
+    ("angles", "more", "torque", "is_proven"),
+    [
+        ([0, 120, 240], {}, 12.5, True),
+        ([0, 120, 240], {"clearance_m": 1e-5}, 12.5, True),
+        # beside dead points nothing bounds what errors strain, and with a torque there is no peak at all
+        ([0, 180], {"eccentricity_error_m": 1e-5}, 0.0, False),
+        ([0, 180], {}, 12.5, False),
+    ],
+)
+def test_the_chapter_says_whether_peaks_are_proven(
+    angles: list[float], more: dict[str, float], torque: float, is_proven: bool
+) -> None:
+    pins: list[dict[str, float]] = [
+        {"angle_deg": angle, "radius_m": 0.05, "stiffness_N_per_m": 2e7} for angle in angles
+    ]
+    pins[0] |= more
+    request = PinLoadsRequest.model_validate({"pins": pins, "rotation_torque_Nm": torque})
+    (chapter,) = chapters_of_pins(request, pin_loads(request))
+    words = " ".join(block.text for block in chapter.blocks if isinstance(block, Paragraph))
+    assert ("Peaks are proven for every angle" in words) == is_proven
+
+
 def test_stiffness_and_clearance_are_in_view() -> None:
     pins = [
         {"angle_deg": 120 * k, "radius_m": 0.05, "stiffness_N_per_m": 2e7, "clearance_m": 1e-5 * k} for k in range(3)

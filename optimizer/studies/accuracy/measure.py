@@ -63,7 +63,7 @@ _PACKAGES = ("numpy", "numba", "scipy", "clarabel", "cvxpy")
 
 @or_mapping(AccuracyRequest)
 def accuracy(request: AccuracyRequest) -> AccuracyAnswer:
-    """The ladders of methods and of simulations for a machine; least mass is off, whatever was asked.
+    """The ladders of methods and of simulations for a machine; least mass is off, whatever the request says.
 
     Raises
     ------

@@ -16,8 +16,6 @@ from service.tables.pins import dead_points, lines
 _LINES = 18
 #: columns of it
 _MOST_PINS = 8
-#: share of a peak that a proven bracket is wide at most
-_PROVEN = 1e-6
 
 
 def pins(request: PinLoadsRequest, answer: PinLoadsAnswer) -> Iterator[Chapter]:
@@ -53,8 +51,7 @@ def _blocks(loads: PinLoads, pins: Sequence[Pin]) -> Iterator[Block]:
     else:
         reason = f": {equilibrium.reason}" if equilibrium.reason else ""
         yield Paragraph(f"The pins do not hold the scroll at every angle{reason}.", "warning")
-    bracket = loads.peak_bracket_N
-    if bracket is not None and bracket[1] - bracket[0] <= _PROVEN * bracket[0]:
+    if loads.peak_bracket_N is not None and all(warning.code != "peaks_not_certified" for warning in loads.warnings):
         yield Paragraph("Peaks are proven for every angle, not at the samples alone.")
     yield Equation(formula("Q_i = 2 T/(n R) sin(theta - 2π(i - 1)/n)   for n evenly spaced pins on radius R"))
     yield Paragraph(_assumption(pins))
