@@ -275,7 +275,13 @@ def test_a_large_answer_that_finds_no_room_is_refused(pool: Pool, tmp_path: Path
 
 
 def stopped(pid: int) -> None:
+    """Stop a process, and wait until no thread of it runs any longer: until then it may take a task."""
     os.kill(pid, signal.SIGSTOP)
+    end = time.monotonic() + 60
+    threads = [psutil.Process(thread.id) for thread in psutil.Process(pid).threads()]
+    while any(thread.status() != psutil.STATUS_STOPPED for thread in threads):
+        assert time.monotonic() < end
+        time.sleep(0.001)
 
 
 def fork_server() -> int:
