@@ -91,6 +91,11 @@ class Cycle(NamedTuple):
         """The largest pressure."""
         return self.high
 
+    @property
+    def pressures(self) -> List[float]:
+        """Between the smallest and the largest of them are all others."""
+        return [self.low, self.high]
+
     def _travel(self, piston: Motion) -> float:
         return (piston.travel if self.head else piston.rest) * self.stroke / 2
 

@@ -7,16 +7,16 @@ j e^{jg} times the sense of rotation, and lifts the crosshead where it is larger
 from __future__ import annotations
 
 from fractions import Fraction
-from typing import Iterator, Sequence, Tuple
+from typing import Iterator, Tuple
 
-from verify_bearings import SAMPLE, within
+from verify_bearings import PEAK, SAMPLE, within
 from verify_claims import Claims, same
 from verify_curves import Turn
-from verify_dynamics import RUBBED
+from verify_dynamics import RUBBED, alone, enclosed
 from verify_machine import row_masses
 from verify_numbers import ONE, NotCovered, Place, direction
-from verify_pistons import Instant, Piston
-from verify_pressed import ALL, READINGS
+from verify_pistons import Pistons
+from verify_pressed import PressureCurve
 from verify_rods import leaning
 
 CLAIM = "loads"
@@ -31,46 +31,50 @@ def turning_mass(row: Place) -> float:
     return row_masses(row)[1].middle().real
 
 
-def guide(design: Place, row: Piston, place: Place, there: Sequence[Instant]) -> Claims:
-    """What a crosshead does to its guide at the samples; nothing is said of it where gravity has no direction."""
+def guide(design: Place, pistons: Pistons, k: int, place: Place) -> Claims:
+    """What a crosshead does to its guide; nothing is said of it where gravity has no direction."""
     if not design / "gravity_deg":
         yield same(CLAIM, place, None)
         return
     yield CLAIM, place, ONE if place else -ONE, ONE
+    row = pistons.rows[k]
     down, axis = (_way(design / "gravity_deg")), _way(row.place / "axis_deg")
     mass = row_masses(row.place)[0].middle().real
     part = ((1j * axis).conjugate() * down).real
     if UPRIGHT * UNSURE < abs(part) < UPRIGHT / UNSURE:
         raise NotCovered(row.place / "axis_deg")
     weight = mass * GRAVITY * abs(part) if abs(part) > UPRIGHT else 0.0
-    sense = 1 if (design / "rotation").text(default="ccw") == "ccw" else -1
-    forces = [ALL.of(instant) * READINGS["side"](instant.piston) * sense for instant in there]
-    low, high = min(forces), max(forces)
-    if part < 0 or (not weight and _is_mirrored(place, low, high)):
-        forces, low, high = [-force for force in forces], -high, -low
+    curve, towards = alone(pistons, k, "side"), pistons.sense
+    # of the side force times a sign
+    largest = {sign: enclosed(curve, place, sign) for sign in (1, -1)}
+    if part < 0 or (not weight and _is_mirrored(place, largest[towards].low, largest[-towards].low)):
+        towards = -towards
     off = (SAMPLE * (row.most + row.moving[0]) + RUBBED * row.friction) * leaning(row) + WEIGHED * mass * GRAVITY
     yield within(CLAIM, place / "weight_N", weight, weight, WEIGHED * mass * GRAVITY)
-    yield within(CLAIM, place / "largest_N", high + weight, high + weight, off)
-    yield within(CLAIM, place / "smallest_N", low + weight, low + weight, off)
+    for field, sign in (("largest_N", 1), ("smallest_N", -1)):
+        peak = largest[sign * towards]
+        ends = sorted((sign * (peak.low - PEAK * abs(peak.low)) + weight, sign * peak.high + weight))
+        yield within(CLAIM, place / field, ends[0], ends[1], off)
     share = place / "lifted_share"
     if not weight:
         yield same(CLAIM, place / "lifts", None)
         yield same(CLAIM, share, 0)
         return
-    least = sum(force + weight < -off for force in forces) / len(forces)
-    most = sum(force + weight < off for force in forces) / len(forces)
-    yield within(CLAIM, share, least, most, SAMPLE)
-    yield same(CLAIM, place / "lifts", share.double() > 0)
+    lifted = PressureCurve(pistons, "side", [(k, complex(towards))], {}).share_below(-weight, off)
+    if lifted is None:
+        raise NotCovered(share)
+    yield within(CLAIM, share, *lifted, SAMPLE)
+    yield same(CLAIM, place / "lifts", (place / "smallest_N").double() < 0)
 
 
 def _way(degrees: Place) -> complex:
     return direction(degrees.double()).middle()
 
 
-def _is_mirrored(place: Place, low: float, high: float) -> bool:
+def _is_mirrored(place: Place, largest: float, other: float) -> bool:
     """Whether an upright row counts the other side as the lower one, which rounding decides."""
-    largest = (place / "largest_N").double()
-    return abs(largest + low) < abs(largest - high)
+    value = (place / "largest_N").double()
+    return abs(value - other) < abs(value - largest)
 
 
 def weights(request: Place, answer: Place, turn: Turn) -> Claims:

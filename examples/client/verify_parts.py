@@ -1,6 +1,7 @@
 """Loads as a designer of parts asks for them: of piston rods, pins, covers, frames and bearings.
 
-The largest of samples are taken over the angles of the output, those that an output brackets over all angles.
+Pressures of a chamber are between those of suction and discharge, or those of its table. All other largest values are
+enclosed over the whole revolution.
 """
 
 from __future__ import annotations
@@ -11,13 +12,13 @@ from typing import Sequence
 from verify_bearings import PEAK, SAMPLE, within
 from verify_claims import Claims, same
 from verify_curves import Turn
-from verify_dynamics import RUBBED, alone, enclosed, of_row, output, series
+from verify_dynamics import RUBBED, alone, enclosed, output, series
 from verify_gas import force
 from verify_gravity import guide, turning_mass, weights
-from verify_harmonics import Peak
 from verify_machine import Machine, row_masses
 from verify_numbers import ONE, Place
-from verify_pistons import Instant, Piston, Pistons
+from verify_pistons import Piston, Pistons
+from verify_pressed import ALL, Acting
 from verify_rods import CASES, RANGE, fluctuation, leaning, of_shaft
 
 
@@ -26,9 +27,8 @@ def designer_loads(request: Place, machine: Machine, pistons: Pistons, answer: P
     place, design = answer / "loads", request / "machine"
     table = yield from output("loads", request, pistons, place)
     for row, k, entry in table.rows:
-        there = of_row(pistons, table.angles, k)
-        yield from _row(pistons, row, k, entry, there)
-        yield from guide(design, row, entry / "guide", there)
+        yield from _row(pistons, row, k, entry)
+        yield from guide(design, pistons, k, entry / "guide")
     throws = list(design / "throws")
     yield same("loads", Place(len(list(place / "throws")), *(place / "throws").path), len(throws))
     for n, (throw, entry) in enumerate(zip(throws, place / "throws")):
@@ -41,19 +41,19 @@ def designer_loads(request: Place, machine: Machine, pistons: Pistons, answer: P
     yield from weights(request, answer, Turn(request, machine, loads=False))
 
 
-def _row(pistons: Pistons, row: Piston, k: int, place: Place, there: Sequence[Instant]) -> Claims:
+def _row(pistons: Pistons, row: Piston, k: int, place: Place) -> Claims:
     off = (SAMPLE * (row.most + row.moving[0]) + RUBBED * row.friction) * leaning(row)
     moving, turning = (mass.middle().real for mass in row_masses(row.place))
     rod = turning - sum(
         (part / "mass_kg").double() for part in row.place / "parts" if (part / "motion").value == "rotating"
     )
-    gas = [instant.gas for instant in there]
-    piston = enclosed(alone(pistons, k, "piston"), place)
-    pin, stopped = (enclosed(alone(pistons, k, "rod", CASES[name]), place) for name in ("running", "sudden_stop"))
+    stop = CASES["sudden_stop"]
+    gas = {sign: enclosed(alone(pistons, k, "piston", stop), place, sign) for sign in (1, -1)}
+    pin, stopped = (enclosed(alone(pistons, k, "rod", acting), place) for acting in (ALL, stop))
     three = {
-        "gas": Peak(*[max(map(abs, gas), default=0.0)] * 2, 0.0),
-        "inertia": Peak(*[max((abs(instant.inertia) for instant in there), default=0.0)] * 2, 0.0),
-        "running": piston,
+        "gas": max(gas.values(), key=lambda peak: peak.low),
+        "inertia": enclosed(alone(pistons, k, "piston", Acting(gas=False, friction=False)), place),
+        "running": enclosed(alone(pistons, k, "piston"), place),
     }
     most = max(three.values(), key=lambda peak: peak.low)
     governing = (place / "piston_rod_governed_by").text(*three)
@@ -66,7 +66,7 @@ def _row(pistons: Pistons, row: Piston, k: int, place: Place, there: Sequence[In
         ("rotating_mass_kg", (turning, turning), SAMPLE * turning),
         ("largest_gas_N", three["gas"][:2], off),
         ("largest_inertia_N", three["inertia"][:2], off),
-        ("largest_piston_force_N", piston[:2], off),
+        ("largest_piston_force_N", three["running"][:2], off),
         ("piston_rod_N", most[:2], off),
         ("crosshead_pin_N", pin[:2], off),
         ("stop_at_outer_dead_centre_N", (dead[0], dead[0]), off),
@@ -77,19 +77,21 @@ def _row(pistons: Pistons, row: Piston, k: int, place: Place, there: Sequence[In
     covers = list(place / "covers")
     yield "loads", place / "covers", ONE if len(covers) == len(row.chambers) else -ONE, ONE
     for n, (chamber, cover) in enumerate(zip(row.chambers, covers)):
-        outward = [abs(force(chamber, instant.pressures[n])) for instant in there]
         yield same("loads", cover / "cylinder", n // 2)
         yield same("loads", cover / "side", "head" if chamber.head else "crank")
-        for field, value in (("largest_N", max(outward)), ("smallest_N", min(outward))):
-            yield within("loads", cover / field, value, value, off)
-    low, high = -max(gas, default=0.0), -min(gas, default=0.0)
+        for field, pressure in (("largest_N", max(chamber.pressures)), ("smallest_N", min(chamber.pressures))):
+            yield within("loads", cover / field, *[abs(force(chamber, pressure))] * 2, off)
+    # the frame holds against what the gas does to the piston
+    pull, push = (max(peak.low, 0.0) for peak in (gas[-1], gas[1]))
+    wide = off + PEAK * max(abs(peak.low) for peak in gas.values())
+    frame = place / "frame"
     for field, value in (
-        ("tension_N", max(high, 0.0)),
-        ("compression_N", min(low, 0.0)),
-        ("mean_N", (low + high) / 2),
-        ("amplitude_N", (high - low) / 2),
+        ("tension_N", pull),
+        ("compression_N", -push),
+        ("mean_N", (gas[-1].low - gas[1].low) / 2),
+        ("amplitude_N", (gas[-1].low + gas[1].low) / 2),
     ):
-        yield within("loads", place / "frame" / field, value, value, off)
+        yield within("loads", frame / field, value, value, wide)
 
 
 def _base(design: Place, pistons: Pistons, place: Place, angles: Sequence[float]) -> Claims:

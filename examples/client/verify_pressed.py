@@ -33,6 +33,7 @@ READINGS: Dict[str, Callable[[Motion], float]] = {
     "radial": lambda piston: piston.radial,
     "shaft": lambda piston: piston.tangent,
 }
+NARROWEST = 1e-10  # rad, of what may be on either side of a level
 LEFT_OUT = 1e-12  # share of all that is added up to which a largest value is enclosed
 
 
@@ -172,6 +173,37 @@ class PressureCurve:
             if visits > MOST:
                 return None
         return Peak(low, max(high, low), self.pistons.sense * best)
+
+    def share_below(self, level: float, off: float) -> Optional[Tuple[float, float]]:
+        """Share of the revolutions over which a scalar is below a level, at least and at most, where it may be off
+        itself; None where it takes too many angles."""
+        bends = self._bends(0.0)
+
+        def height(shaft: float, within: float) -> float:
+            return self.value(shaft, within).real - level
+
+        parts = [_Part(start, end, (start + end) / 2) for start, end in self.pistons.pieces]
+        parts = [arc._replace(first=height(arc.start, arc.within), last=height(arc.end, arc.within)) for arc in parts]
+        sure, open_, visits = 0.0, 0.0, 0
+        while parts:
+            finer: List[_Part] = []
+            for arc in parts:
+                width = arc.end - arc.start
+                beside = bends(arc.start, arc.end, arc.within) * width**2 / 8
+                if max(arc.first, arc.last) + beside < -off:
+                    sure += width
+                elif min(arc.first, arc.last) - beside > off:
+                    continue
+                elif width < NARROWEST or max(abs(arc.first), abs(arc.last)) + beside < 2 * off:
+                    open_ += width
+                else:
+                    there = (arc.start + arc.end) / 2
+                    value = height(there, arc.within)
+                    finer += [arc._replace(end=there, last=value), arc._replace(start=there, first=value)]
+            parts, visits = finer, visits + len(finer)
+            if visits > MOST:
+                return None
+        return sure / self.pistons.period, (sure + open_) / self.pistons.period
 
     def _bends(self, frame: float) -> Callable[[float, float, float], float]:
         """What the second derivative comes to at most between two angles of a piece, in a frame that turns."""

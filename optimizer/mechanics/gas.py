@@ -104,6 +104,25 @@ def forces_at_dead_centres(chambers: Chambers, traces: Sequence[Trace] = ()) -> 
     return GasForces(pressure, chambers.area).total
 
 
+def pressure_range(chambers: Chambers, traces: Sequence[Trace] = ()) -> tuple[Real, Real]:
+    """Smallest and largest pressures of the chambers over the cycle, (..., rows, C) Pa.
+
+    They are those of suction and discharge, for what lies between rises and falls from one to the other; and those of
+    entries of a table, between which it is linear.
+
+    Parameters
+    ----------
+    traces : pressures of chambers, in place of these.
+    """
+    low, high = chambers.suction, np.where(chambers.closed, chambers.discharge, chambers.suction)
+    if traces:
+        low, high = low.copy(), high.copy()
+    for trace in traces:
+        for ends, extreme in ((low, np.minimum.reduce), (high, np.maximum.reduce)):
+            ends[..., trace.row, trace.side] = extreme(trace.pressure, axis=-1)[trace.table]
+    return low, high
+
+
 @cache
 def _head_sides(count: int) -> np.ndarray:
     return np.arange(count) % 2 == 0

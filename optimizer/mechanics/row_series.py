@@ -31,7 +31,17 @@ NO_WIDTHS = np.zeros(0)
 
 #: a force of the rows
 Reading = Literal[
-    "piston", "rod", "rod_without_gas", "rod_at_rest", "side", "tangential", "radial", "on_shaft", "on_frame", "gas"
+    "piston",
+    "rod",
+    "rod_without_gas",
+    "rod_at_rest",
+    "side",
+    "tangential",
+    "radial",
+    "on_shaft",
+    "on_frame",
+    "gas",
+    "inertia",
 ]
 
 

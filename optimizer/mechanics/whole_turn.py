@@ -101,15 +101,18 @@ class WholeTurn:
     def of_rows(self, reading: Reading) -> "TurnCurves":
         """A force of every row by itself; of the first row of each kind alone, where there are kinds."""
         if reading not in self._of_rows:
-            self._of_rows[reading] = self.curves(reading, self._alone)
+            alone = self._alone if self.kinds is None else self._alone[:, self.kinds.first]
+            self._of_rows[reading] = self.curves(reading, alone)
         return self._of_rows[reading]
+
+    def of_every_row(self, reading: Reading) -> "TurnCurves":
+        """A force of every row by itself, those of one kind too."""
+        return self.of_rows(reading) if self.kinds is None else self.curves(reading, self._alone)
 
     @cached_property
     def _alone(self) -> Real:
-        """Weights (N, R, R) or (1, K, R) of each row by itself."""
+        """Weights (N, R, R) of each row by itself."""
         count = self.rows.crank_radius.shape[-1]
-        if self.kinds is not None:
-            return np.eye(count)[self.kinds.first][None]
         return spread(np.eye(count), (len(self.centre), count, count))
 
     @cached_property
@@ -341,6 +344,10 @@ class TurnCurves(SeriesCurves):
         """The curves (N C, n) at shaft angles (n,) rad; at a jump one of its limits or their middle."""
         places = spread(angle, (len(self.weights), len(angle)))
         return self._values(places, places).reshape(-1, len(angle))
+
+    def along(self, angle: Real) -> Complex:
+        """The same (N, C, n) at shaft angles (N, n) rad of every design."""
+        return self._values(angle, angle)
 
     def _values(self, angle: Real, within: Real, kinds: RowKinds | None = None) -> Complex:
         """The curves (N, C, n) at angles (N, n) within pieces that hold others."""

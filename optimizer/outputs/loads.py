@@ -9,12 +9,13 @@ from optimizer.effects.machine_kinds import reciprocating
 from optimizer.effects.results import GasCycle
 from optimizer.formulation.simulation import Prepared
 from optimizer.mechanics.angles import direction
-from optimizer.mechanics.gas import forces_at_dead_centres
+from optimizer.mechanics.gas import forces_at_dead_centres, pressure_range
 from optimizer.mechanics.layout import stacked, web_radii
 from optimizer.mechanics.row_series import Reading
 from optimizer.mechanics.shaft import INFLUENCES, bearing_places
 from optimizer.mechanics.shapes import plates
-from optimizer.mechanics.weight import GRAVITY, along_axis, on_guide
+from optimizer.mechanics.weight import GRAVITY, Guides, along_axis, guides
+from optimizer.mechanics.whole_turn import WholeTurn
 from optimizer.numerics.arrays import Complex, Real, side_by_side, spread
 from optimizer.outputs.output import Columns, Output
 from optimizer.outputs.peaks import (
@@ -22,6 +23,7 @@ from optimizer.outputs.peaks import (
     largest_of_rows,
     of_torque,
     row_magnitudes,
+    row_peaks,
     rows_search,
     torque_peak,
     torque_search,
@@ -32,7 +34,9 @@ from schemas.machine.reciprocating import ReciprocatingMachine
 from schemas.machine.throws import row_cylinders
 
 #: forces whose largest magnitudes are loads of every row
-_READINGS: tuple[Reading, ...] = ("piston", "rod", "rod_at_rest")
+_READINGS: tuple[Reading, ...] = ("inertia", "piston", "rod", "rod_at_rest")
+#: smallest and largest value
+Ends = tuple[float, float]
 
 
 def _figure(scene: Prepared, fitted: Complex | None) -> Loads:
@@ -76,14 +80,13 @@ def _inertia(scene: Prepared, machine: ReciprocatingMachine) -> float | None:
 
 
 def _rows(scene: Prepared, machine: ReciprocatingMachine) -> Iterator[dict[str, Any]]:
-    forces, masses = scene.results["piston_force"], scene.layout.reciprocating.mass.tolist()
-    piston, rod, stopped = ([least for least, _ in row_magnitudes(scene, reading)] for reading in _READINGS)
+    masses, gas = scene.layout.reciprocating.mass.tolist(), _gas(scene)
+    inertia, piston, rod, stopped = ([least for least, _ in row_magnitudes(scene, reading)] for reading in _READINGS)
     at_centres = at_dead_centres(scene).tolist()
-    gas, inertia = (list(zip(*_ends(force), strict=True)) for force in (forces.gas, forces.inertia))
-    guides, frames, covers = _guides(scene, machine), [_frame(*ends) for ends in gas], _covers(scene)
+    of_guides, frames, covers = _guides(scene, machine), [_frame(*ends) for ends in gas], _covers(scene)
     rows = [row for throw in machine.throws for row in throw.rows]
     for k, place in enumerate(scene.row_labels):
-        three = {"gas": _magnitude(*gas[k]), "inertia": _magnitude(*inertia[k]), "running": piston[k]}
+        three = {"gas": max(map(abs, gas[k])), "inertia": inertia[k], "running": piston[k]}
         link = rows[k].connecting_rod
         worst = max(three, key=lambda name: three[name])
         yield {
@@ -102,8 +105,16 @@ def _rows(scene: Prepared, machine: ReciprocatingMachine) -> Iterator[dict[str, 
             "stop_over_the_turn_N": stopped[k],
             "covers": tuple(covers[k][: 2 * sum(1 for _ in row_cylinders(rows[k]))]) if covers else (),
             "frame": frames[k],
-            "guide": None if guides is None else guides[k],
+            "guide": None if of_guides is None else of_guides[k],
         }
+
+
+def _gas(scene: Prepared) -> list[Ends]:
+    """Smallest and largest gas force on the pistons of every row."""
+    if "gas" not in scene.results:
+        return [(0.0, 0.0)] * len(scene.row_labels)
+    high, low = row_peaks(scene, "gas")
+    return [(0.0 - least, largest) for least, largest in zip(low.lower, high.lower, strict=True)]
 
 
 def at_dead_centres(scene: Prepared) -> Real:
@@ -115,24 +126,32 @@ def at_dead_centres(scene: Prepared) -> Real:
     return spread(forces_at_dead_centres(cycle.chambers, cycle.traces), (*masses.shape, 2))
 
 
-def _covers(scene: Prepared) -> list[list[dict[str, Any]]]:
-    """Loads on the covers of every row, of as many chambers as any row has; none without gas."""
+def on_covers(scene: Prepared) -> tuple[Real, Real] | None:
+    """Smallest and largest loads on the ends of the cylinders of every row, pressure times area, (..., rows, C) N, of
+    as many chambers as any row has; None without gas."""
     cycle: GasCycle | None = scene.results.get("gas")
     if cycle is None:
+        return None
+    area = cycle.chambers.area
+    low, high = pressure_range(cycle.chambers, cycle.traces)
+    return low * area, high * area
+
+
+def _covers(scene: Prepared) -> list[list[dict[str, Any]]]:
+    loads = on_covers(scene)
+    if loads is None:
         return []
-    # pressure times area
-    smallest, largest = _ends(cycle.forces.pressure)
     return [
         [
             {
                 "cylinder": chamber // 2,
                 "side": "crank" if chamber % 2 else "head",
-                "largest_N": high * area,
-                "smallest_N": low * area,
+                "largest_N": high,
+                "smallest_N": low,
             }
-            for chamber, (low, high, area) in enumerate(zip(*of_row, strict=True))
+            for chamber, (low, high) in enumerate(zip(*of_row, strict=True))
         ]
-        for of_row in zip(smallest, largest, cycle.forces.area.tolist(), strict=True)
+        for of_row in zip(*(ends.tolist() for ends in loads), strict=True)
     ]
 
 
@@ -147,37 +166,33 @@ def _frame(smallest: float, largest: float) -> dict[str, float]:
     }
 
 
-def _magnitude(smallest: float, largest: float) -> float:
-    return max(abs(smallest), abs(largest))
+def guides_of(scene: Prepared, machine: ReciprocatingMachine) -> Guides:
+    """Guides of the rows, of a machine that says where gravity pulls."""
+    rows = scene.layout.reciprocating
+    return guides(rows.mass, rows.axis, scene.layout.sense, np.asarray(direction(np.asarray(machine.gravity_deg))))
 
 
-def _ends(values: Real) -> tuple[list[Any], list[Any]]:
-    """Smallest and largest over the last axis."""
-    return np.minimum.reduce(values, axis=-1).tolist(), np.maximum.reduce(values, axis=-1).tolist()
-
-
-def on_guides(scene: Prepared, machine: ReciprocatingMachine) -> tuple[Real, Real]:
-    """Forces (..., rows, T) N on the guides, and weights (..., rows) N, of a machine that says where gravity pulls."""
-    layout = scene.layout
-    down = np.asarray(direction(np.asarray(machine.gravity_deg)))
-    masses = layout.reciprocating.mass
-    return on_guide(scene.results["rod_forces"].side, layout.reciprocating.axis, layout.sense, masses, down)
+def lifted_shares(scene: Prepared, of_rows: Guides) -> Real:
+    """Shares of the cycle over which crossheads are off their lower guides, (..., rows)."""
+    whole: WholeTurn = scene.results["whole_turn"]
+    return of_rows.lifted_share(whole.of_every_row("side"))
 
 
 def _guides(scene: Prepared, machine: ReciprocatingMachine) -> list[dict[str, Any]] | None:
     if machine.gravity_deg is None:
         return None
-    force, weight = on_guides(scene, machine)
-    share = np.mean(force < 0.0, axis=-1)
+    high, low = row_peaks(scene, "side")
+    of_rows = guides_of(scene, machine)
+    force, shares = of_rows.force(np.array([high.lower, np.negative(low.lower)]).T), lifted_shares(scene, of_rows)
     return [
         {
             "weight_N": pull,
-            "largest_N": largest,
-            "smallest_N": smallest,
-            "lifts": None if pull == 0.0 else lifted > 0.0,
-            "lifted_share": 0.0 if pull == 0.0 else lifted,
+            "largest_N": max(ends),
+            "smallest_N": min(ends),
+            "lifts": None if pull == 0.0 else min(ends) < 0.0,
+            "lifted_share": share,
         }
-        for pull, smallest, largest, lifted in zip(weight.tolist(), *_ends(force), share.tolist(), strict=True)
+        for pull, ends, share in zip(of_rows.weight.tolist(), force.tolist(), shares.tolist(), strict=True)
     ]
 
 
@@ -244,6 +259,10 @@ def whole_weight(scene: Prepared, machine: ReciprocatingMachine, fitted: Complex
 
 def _searches(scene: Prepared, _fitted: Complex | None) -> Iterator[Search]:
     yield from (rows_search(scene, reading) for reading in _READINGS)
+    if "gas" in scene.results:
+        yield rows_search(scene, "gas")
+    if reciprocating(scene.machine).gravity_deg is not None:
+        yield rows_search(scene, "side")
     friction, mean = scene.results["torque"].rotating_friction, scene.results["torque_integrals"].mean
     yield from (torque_search(scene, constant) for constant in (friction, friction - mean))
 
@@ -268,7 +287,7 @@ def _columns(scene: Prepared, fitted: Complex) -> dict[str, Real]:
 LOADS = Output(
     "loads",
     "loads on piston rod, pin, covers, frame, guides, base and bearings",
-    ("gas", "piston_force", "rod_forces", "torque", "torque_integrals", "whole_turn"),
+    ("gas", "torque", "torque_integrals", "whole_turn"),
     _figure,
     Columns(
         _columns,

@@ -16,14 +16,16 @@ class CoverLoad(Model):
 
     cylinder: int = Field(description="number of the cylinder on its row, from 0", examples=[0])
     side: Literal["head", "crank"] = Field(description="which end", examples=["head"])
-    largest_N: Newtons = Field(description="absolute pressure times piston area, largest sample", examples=[355531.1])
-    smallest_N: Newtons = Field(description="smallest sample", examples=[119344.9])
+    largest_N: Newtons = Field(
+        description="absolute pressure times piston area, largest over the cycle", examples=[355531.1]
+    )
+    smallest_N: Newtons = Field(description="smallest over the cycle", examples=[119344.9])
 
 
 class FrameLoad(Model):
     """What the gas of a row does to the frame between its cylinders and the main bearings, alternating."""
 
-    tension_N: Newtons = Field(description="largest pull among the samples, 0 if there is none", examples=[239491.5])
+    tension_N: Newtons = Field(description="largest pull over the cycle, 0 if there is none", examples=[239491.5])
     compression_N: Newtons = Field(description="largest push, negative, 0 if there is none", examples=[-228681.6])
     mean_N: Newtons = Field(description="midway between largest and smallest", examples=[5404.9])
     amplitude_N: Newtons = Field(description="half of their difference", examples=[234086.6])
@@ -33,14 +35,14 @@ class GuideLoad(Model):
     """Crosshead on its guide, with its weight; towards the lower guide."""
 
     weight_N: Newtons = Field(description="weight of the reciprocating masses across the axis", examples=[2977.0])
-    largest_N: Newtons = Field(description="largest sample", examples=[24000.0])
+    largest_N: Newtons = Field(description="largest over the cycle", examples=[24000.0])
     smallest_N: Newtons = Field(
-        description="smallest sample; negative: it bears on the upper guide", examples=[-18000.0]
+        description="smallest over the cycle; negative: it bears on the upper guide", examples=[-18000.0]
     )
     lifts: bool | None = Field(
         description="whether it leaves the lower guide; null where the axis is upright", examples=[True]
     )
-    lifted_share: float = Field(description="share of the samples at which it is off it", examples=[0.49])
+    lifted_share: float = Field(description="share of the cycle over which it is off it", examples=[0.49])
 
 
 class RowLoad(RowSeries):
@@ -54,9 +56,9 @@ class RowLoad(RowSeries):
         description="all that turns at the crank pin in the plane of the row: that, and its turning parts",
         examples=[60.2],
     )
-    largest_gas_N: Newtons = Field(description="largest gas force among the samples, magnitude", examples=[239491.5])
+    largest_gas_N: Newtons = Field(description="largest gas force over the cycle, magnitude", examples=[239491.5])
     largest_inertia_N: Newtons = Field(
-        description="largest inertia force among the samples, magnitude", examples=[139833.0]
+        description="largest inertia force over the cycle, magnitude", examples=[139833.0]
     )
     largest_piston_force_N: Newtons = Field(
         description="largest sum of gas, inertia and friction over the cycle, magnitude", examples=[180000.0]

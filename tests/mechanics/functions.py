@@ -184,9 +184,9 @@ def _quality(design: Design) -> Any:
 
 def _guided(design: Design) -> Any:
     rows = design.layout.reciprocating
-    return weight.on_guide(design.over_turn, rows.axis, design.layout.sense, rows.mass, design.axis), weight.along_axis(
-        rows.mass, rows.axis, design.axis
-    )
+    guides = weight.guides(rows.mass, rows.axis, design.layout.sense, design.axis)
+    along = weight.along_axis(rows.mass, rows.axis, design.axis)
+    return guides.weight, guides.force(design.over_turn), along
 
 
 def _turned(design: Design) -> Any:
@@ -276,6 +276,8 @@ FUNCTIONS: dict[str, Callable[[Design], Any]] = {
     "switching": lambda model: [gas.switching_angles(model.chambers, model.layout, exact) for exact in (True, False)],
     "switching travels": lambda model: gas.switching_travels(model.chambers, model.layout),
     "indicated work": lambda model: gas.indicated_work(model.chambers, model.layout),
+    "pressure range": lambda model: gas.pressure_range(model.chambers),
+    "dead centres": lambda model: gas.forces_at_dead_centres(model.chambers),
     "rod": _rod,
     "shaft loads": lambda model: rod.shaft_loads(model.over_turn, _moving(model), model.layout, model.angle),
     "turned": lambda model: angles.shaft_vectors(model.layout.sense, model.angle),

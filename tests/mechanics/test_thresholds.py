@@ -32,8 +32,8 @@ def test_friction_acts_up_to_a_hair_beside_the_dead_centres(beside: float, share
 
 @pytest.mark.parametrize(("leaning", "share"), [(1e-14, 0.0), (1e-9, 1.0), (1e-4, 1.0)])
 def test_a_row_that_leans_by_a_hair_presses_on_its_guide(leaning: float, share: float) -> None:
-    side, mass = np.zeros((1, 1)), np.array([2.0])
-    _, pressed = weight.on_guide(side, np.exp(1j * np.array([leaning])), np.asarray(1.0), mass, np.asarray(-1.0 + 0j))
+    axis = np.exp(1j * np.array([leaning]))
+    pressed = weight.guides(np.array([2.0]), axis, np.asarray(1.0), np.asarray(-1.0 + 0j)).weight
     assert pressed[0] == pytest.approx(2.0 * 9.80665 * leaning * share, rel=1e-6)
 
 

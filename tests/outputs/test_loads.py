@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from optimizer.analyze import analyze
-from optimizer.mechanics.weight import GRAVITY, on_guide
+from optimizer.mechanics.weight import GRAVITY, guides
 from optimizer.optimize import optimize
 from optimizer.studies.sweep.rows import rows
 from optimizer.studies.sweep.table import result_schema, result_table
@@ -117,12 +117,11 @@ def test_guides_by_hand_analytic() -> None:
     """
     side = np.array([[-50.0, 0.0, 200.0]])
     axis, down = np.array([1.0 + 0j]), np.asarray(-1j)
-    force, weight = on_guide(side, axis, np.asarray(1.0), np.array([10.0]), down)
-    np.testing.assert_allclose(weight, [98.0665])
-    np.testing.assert_allclose(force, [[148.0665, 98.0665, -101.9335]])
+    horizontal = guides(np.array([10.0]), axis, np.asarray(1.0), down)
+    np.testing.assert_allclose(horizontal.weight, [98.0665])
+    np.testing.assert_allclose(horizontal.force(side), [[148.0665, 98.0665, -101.9335]])
     # an upright row has no lower guide
-    _, none = on_guide(side, np.array([1j]), np.asarray(1.0), np.array([10.0]), down)
-    assert none == 0.0
+    assert guides(np.array([10.0]), np.array([1j]), np.asarray(1.0), down).weight == 0.0
 
 
 def test_without_gas_only_inertia_loads() -> None:

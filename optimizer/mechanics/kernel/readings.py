@@ -21,10 +21,13 @@ READINGS = (
     "on_shaft",
     "on_frame",
     "gas",
+    "inertia",
 )
-PISTON, ROD, ROD_WITHOUT_GAS, ROD_AT_REST, SIDE, TANGENTIAL, RADIAL, ON_SHAFT, ON_FRAME, GAS = range(len(READINGS))
+PISTON, ROD, ROD_WITHOUT_GAS, ROD_AT_REST, SIDE, TANGENTIAL, RADIAL, ON_SHAFT, ON_FRAME, GAS, ACCELERATION = range(
+    len(READINGS)
+)
 #: of these the gas is no part
-WITHOUT_GAS = ("rod_without_gas", "on_frame")
+WITHOUT_GAS = ("rod_without_gas", "on_frame", "inertia")
 #: functions beside those that are kept
 _FACTOR, _FORCE, _OF_INERTIA, _OF_GAS, _TOTAL = np.arange(5)
 _OWN = 5
@@ -72,10 +75,10 @@ def _add_up(rows, functions, design, angles, reading, room, results):  # type: i
     terms, number, total = series.middle.shape[1], design.size, (series.middle[_TOTAL], series.radius[_TOTAL])
     first = terms - middle.shape[1]
     moves = reading != ROD_AT_REST and reading != GAS
-    rubs = moves and reading != ON_FRAME
-    with_gas = reading != ROD_WITHOUT_GAS and reading != ON_FRAME and functions.middle.shape[2] > FUNCTIONS
+    rubs = moves and reading not in (ON_FRAME, ACCELERATION)
+    with_gas = reading not in (ROD_WITHOUT_GAS, ON_FRAME, ACCELERATION) and functions.middle.shape[2] > FUNCTIONS
     # by what the force on the piston is multiplied
-    factored = reading != PISTON and reading != GAS
+    factored = reading not in (PISTON, GAS, ACCELERATION)
     gas = (series.middle[_OF_GAS if factored else _FORCE], series.radius[_OF_GAS if factored else _FORCE])
     # where designs have all of this in common, one after the other is made of it
     turns, various, last = number if places == angles else 1, rows.area.shape[0] > 1, -1

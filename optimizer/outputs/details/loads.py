@@ -9,14 +9,21 @@ from optimizer.formulation.simulation import Prepared
 from optimizer.mechanics.layout import stacked
 from optimizer.numerics.arrays import Complex, Real
 from optimizer.outputs.details.rows import by_part, of_chambers
-from optimizer.outputs.loads import at_dead_centres, on_bearings, on_guides, whole_weight
+from optimizer.outputs.loads import (
+    at_dead_centres,
+    guides_of,
+    lifted_shares,
+    on_bearings,
+    on_covers,
+    whole_weight,
+)
 from optimizer.outputs.output import Columns
 from optimizer.outputs.peaks import of_rows
 from schemas.machine.reciprocating import ReciprocatingMachine
 
 
 def _over_the_turn(scene: Prepared, _fitted: Complex) -> dict[str, Real]:
-    """Peaks of every row, whatever the samples."""
+    """Peaks of every row."""
     piston, rod, stopped = (of_rows(scene, reading).magnitude for reading in ("piston", "rod", "rod_at_rest"))
     return {
         **by_part(scene, "largest_piston_force_N", "rows", piston.lower),
@@ -25,42 +32,66 @@ def _over_the_turn(scene: Prepared, _fitted: Complex) -> dict[str, Real]:
     }
 
 
-def _sampled(scene: Prepared, _fitted: Complex) -> dict[str, Real]:
-    """What a single answer reads off the samples of the turn, off the same ones."""
-    forces, piston = scene.results["piston_force"], of_rows(scene, "piston").magnitude.lower
-    gas, inertia = (np.max(np.abs(series), axis=-1) for series in (forces.gas, forces.inertia))
-    low, high = np.min(-forces.gas, axis=-1), np.max(-forces.gas, axis=-1)
-    rows = {
-        "largest_gas_N": gas,
-        "largest_inertia_N": inertia,
-        "piston_rod_N": np.maximum(np.maximum(gas, inertia), piston),
-        "frame_tension_N": np.maximum(high, 0.0),
-        "frame_compression_N": np.minimum(low, 0.0) + 0.0,
-        "frame_mean_N": 0.5 * (low + high) + 0.0,
-        "frame_amplitude_N": 0.5 * (high - low),
+def _gas(scene: Prepared) -> tuple[Real, Real]:
+    """Smallest and largest gas force of every row, (n, rows) N."""
+    if "gas" not in scene.results:
+        nothing = np.zeros(scene.layout.reciprocating.mass.shape)
+        return nothing, nothing
+    ends = of_rows(scene, "gas")
+    return 0.0 - ends.low.lower, ends.high.lower
+
+
+def _rods(scene: Prepared, _fitted: Complex) -> dict[str, Real]:
+    gas = np.maximum(*np.abs(_gas(scene)))
+    inertia, piston = (of_rows(scene, reading).magnitude.lower for reading in ("inertia", "piston"))
+    return {
+        **by_part(scene, "largest_gas_N", "rows", gas),
+        **by_part(scene, "largest_inertia_N", "rows", inertia),
+        **by_part(scene, "piston_rod_N", "rows", np.maximum(np.maximum(gas, inertia), piston)),
     }
-    results: dict[str, Real] = {}
-    for name, values in rows.items():
-        results |= by_part(scene, name, "rows", values)
-    if "gas" in scene.results:
-        outward = np.abs(scene.results["gas"].forces.force)
-        results |= by_part(scene, "cover_largest_N", "chambers", of_chambers(scene, np.max(outward, axis=-1)))
-        results |= by_part(scene, "cover_smallest_N", "chambers", of_chambers(scene, np.min(outward, axis=-1)))
-    return results
+
+
+def _frames(scene: Prepared, _fitted: Complex) -> dict[str, Real]:
+    smallest, largest = _gas(scene)
+    low, high = 0.0 - largest, 0.0 - smallest
+    return {
+        **by_part(scene, "frame_tension_N", "rows", np.maximum(high, 0.0)),
+        **by_part(scene, "frame_compression_N", "rows", np.minimum(low, 0.0) + 0.0),
+        **by_part(scene, "frame_mean_N", "rows", 0.5 * (low + high) + 0.0),
+        **by_part(scene, "frame_amplitude_N", "rows", 0.5 * (high - low)),
+    }
+
+
+def _covers(scene: Prepared, _fitted: Complex) -> dict[str, Real]:
+    loads = on_covers(scene)
+    if loads is None:
+        return {}
+    shape = (*scene.layout.reciprocating.mass.shape, loads[0].shape[-1])
+    low, high = (of_chambers(scene, np.broadcast_to(ends, shape)) for ends in loads)
+    return {
+        **by_part(scene, "cover_largest_N", "chambers", high),
+        **by_part(scene, "cover_smallest_N", "chambers", low),
+    }
 
 
 def _guides(scene: Prepared, _fitted: Complex) -> dict[str, Real]:
     machine = _machine(scene)
     if machine.gravity_deg is None:
         return {}
-    force, weight = on_guides(scene, machine)
-    lifted = np.where(weight == 0.0, 0.0, np.mean(force < 0.0, axis=-1))
+    ends, guides = of_rows(scene, "side"), guides_of(scene, machine)
+    force = guides.force(np.stack([ends.high.lower, -ends.low.lower], axis=-1))
     return {
-        **by_part(scene, "guide_weight_N", "rows", weight),
+        **by_part(scene, "guide_weight_N", "rows", guides.weight),
         **by_part(scene, "guide_largest_N", "rows", np.max(force, axis=-1)),
         **by_part(scene, "guide_smallest_N", "rows", np.min(force, axis=-1)),
-        **by_part(scene, "guide_lifted_share", "rows", lifted),
     }
+
+
+def _lifts(scene: Prepared, _fitted: Complex) -> dict[str, Real]:
+    machine = _machine(scene)
+    if machine.gravity_deg is None:
+        return {}
+    return by_part(scene, "guide_lifted_share", "rows", lifted_shares(scene, guides_of(scene, machine)))
 
 
 def _stops(scene: Prepared, _fitted: Complex) -> dict[str, Real]:
@@ -107,8 +138,6 @@ def _machine(scene: Prepared) -> ReciprocatingMachine:
     return reciprocating(scene.machine)
 
 
-_OF_ROWS = ("largest_gas_N.", "largest_inertia_N.", "piston_rod_N.")
-_OF_FRAMES = ("frame_tension_N.", "frame_compression_N.", "frame_mean_N.", "frame_amplitude_N.")
 LOADS = (
     Columns(
         _over_the_turn,
@@ -117,18 +146,25 @@ LOADS = (
         readings=("piston", "rod", "rod_at_rest"),
     ),
     Columns(
-        _sampled,
-        sampled=True,
-        needs=("gas", "piston_force", "whole_turn"),
-        keys=(*_OF_ROWS, *_OF_FRAMES, "cover_largest_N.", "cover_smallest_N."),
-        readings=("piston",),
+        _rods,
+        needs=("gas", "whole_turn"),
+        keys=("largest_gas_N.", "largest_inertia_N.", "piston_rod_N."),
+        readings=("gas", "inertia", "piston"),
     ),
     Columns(
-        _guides,
-        sampled=True,
-        needs=("rod_forces",),
-        keys=("guide_weight_N.", "guide_largest_N.", "guide_smallest_N.", "guide_lifted_share."),
+        _frames,
+        needs=("gas", "whole_turn"),
+        keys=("frame_tension_N.", "frame_compression_N.", "frame_mean_N.", "frame_amplitude_N."),
+        readings=("gas",),
     ),
+    Columns(_covers, needs=("gas",), keys=("cover_largest_N.", "cover_smallest_N.")),
+    Columns(
+        _guides,
+        needs=("whole_turn",),
+        keys=("guide_weight_N.", "guide_largest_N.", "guide_smallest_N."),
+        readings=("side",),
+    ),
+    Columns(_lifts, needs=("whole_turn",), keys=("guide_lifted_share.",), readings=("side",)),
     Columns(_stops, needs=("gas",), keys=("stop_at_outer_dead_centre_N.", "stop_at_inner_dead_centre_N.")),
     Columns(
         _weights, needs=("kinematics",), keys=("foundation_weight_N", "bearing_weight_x_N.", "bearing_weight_y_N.")
