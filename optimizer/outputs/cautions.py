@@ -105,7 +105,7 @@ def _crosshead_lifts(evidence: Evidence) -> Iterator[Caution]:
             weight, up = row.guide.weight_N, row.guide.weight_N - row.guide.smallest_N
             yield Caution(
                 code="crosshead_lifts",
-                message=f"The crosshead of this row leaves its lower guide over {100.0 * row.guide.lifted_share:.0f} % "
+                message=f"The crosshead of this row leaves its lower guide over {100.0 * row.guide.lifted_share:.3g} % "
                 f"of the cycle: a side force of up to {_plain(up)} N against a weight of {_plain(weight)} N.",
                 pointer=pointer(("machine", "throws", row.throw, "rows", row.row)),
             )
