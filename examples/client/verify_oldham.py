@@ -7,7 +7,7 @@ ring's inertia m e w^2 cos(t - u) beside. They slide with e w |sin(t - u)| and e
 from __future__ import annotations
 
 from math import asin, cos, degrees, pi, radians, sin
-from typing import Callable, Iterator, Sequence
+from typing import Callable, Iterable, Iterator, Sequence
 
 from verify_bearings import within
 from verify_claims import Claims, same
@@ -19,6 +19,8 @@ from verify_pistons import integral
 EXACT, SMOOTH = 1e-12, 1e-9
 #: pins that leave a line by so little have peaks that no panel of the service shows; and pieces times pins to look at
 _NARROW, _MOST = 0.05, 20_000
+#: after which the ends of an interval are neighbours
+_HALVINGS = 60
 
 
 def comparison(claim: str, pattern: Place, turn: Turn, place: Place) -> Claims:
@@ -49,7 +51,20 @@ def _load(turn: Turn, k: int) -> float:
     """The mean size of what a pin carries."""
     pins, torque = turn.pins, turn.torque
     zero = degrees(pins.shapes[k].phase)
-    return _mean(lambda angle: abs(pins.load(k, torque.at(angle), angle)[0]), torque, [zero, zero + 180])
+    breaks = [zero, zero + 180, *_changes(torque.at, torque.angles)]
+    return _mean(lambda angle: abs(pins.load(k, torque.at(angle), angle)[0]), torque, breaks)
+
+
+def _changes(curve: Callable[[float], float], edges: Iterable[float]) -> Iterator[float]:
+    """Where a curve changes its sign [degrees], which between two edges it does once at most."""
+    ends = sorted({0.0, 360.0, *(angle % 360 for angle in edges)})
+    for low, high in zip(ends, ends[1:]):
+        first = curve(low)
+        if first * curve(high) < 0:
+            for _ in range(_HALVINGS):
+                middle = (low + high) / 2
+                low, high = (middle, high) if first * curve(middle) > 0 else (low, middle)
+            yield low
 
 
 def _mean(curve: Callable[[float], float], torque: Torque, breaks: Sequence[float]) -> float:
@@ -98,10 +113,14 @@ def _ring(claim: str, design: Place, orbit: float, omega: float, turn: Turn, pla
         for key, value in zip(ends, keys(angle)):
             yield within(claim, key, value, value, EXACT * size)
     steep = 2 * radius * inertia
-    largest = max(max(map(abs, keys(angle))) for angle in _level(torque, axis, steep))
+    levels = list(_level(torque, axis, steep))
+    largest = max(max(map(abs, keys(angle))) for angle in levels)
     yield within(claim, place / "peak_key_N", largest, largest, EXACT * size)
     yield within(claim, place / "peak_speed_m_s", speed, speed, EXACT * speed)
-    whole = _mean(loss, torque, [axis + 90 * n for n in range(4)])
+    # a kink that is near the end of a piece is between the places that an integral looks at
+    kinks = [*_changes(torque.at, torque.angles), *(axis + 90 * n for n in range(4))]
+    kinks += [*_changes(lambda angle: keys(angle)[0], levels), *_changes(lambda angle: keys(angle)[1], levels)]
+    whole = _mean(loss, torque, kinks)
     yield within(claim, place / "loss_W", whole, whole, SMOOTH * whole)
 
 

@@ -125,7 +125,7 @@ def _load(turn: Turn, entry: Place, k: int) -> Claims:
         if stuck:
             yield same(CLAIM, sample, None)
         elif not pins.loose:
-            value, off = pins.load(k, torque.at(angle), angle)
+            value, off = pins.load(k, torque.at(angle), angle, torque.most)
             yield within(CLAIM, sample, value, value, off)
         loads.append(0.0 if stuck else sample.double())
     loads = [*loads, *[0.0] * len(turn.angles)][: len(turn.angles)]

@@ -22,6 +22,8 @@ from verify_numbers import NotCovered, Place, Unreadable
 LINE = 1e-6
 #: by which doubles are off at a usual angle, and where levers are all but equal
 _OFF, _NEAR = 1e-12, 1e-13
+#: of the largest entry of a torque, by which it may be off beside where it changes its sign
+_DIGITS = 4e-15
 #: times by which stiffnesses and semi-axes may differ without loss of digits
 _ALIKE = 1e3
 #: of clearances and errors
@@ -176,13 +178,13 @@ class Pins:
         """1 - e cos 2(t - b) at an angle [rad]."""
         return self.rest + 2 * self.flat * sin(angle - self.axis) ** 2
 
-    def load(self, k: int, torque: float, angle: float) -> Tuple[float, float]:
-        """What a pin carries at an angle [degrees], and by how much doubles may be off [N]."""
+    def load(self, k: int, torque: float, angle: float, most: float = 0.0) -> Tuple[float, float]:
+        """What a pin carries at an angle [degrees], and by how much doubles may be off [N]; ``most``: of the torque."""
         angle_rad, shape = radians(angle), self.shapes[k]
         below = self.below(angle_rad)
-        if below <= 0 or torque == 0:
+        if below <= 0:
             return 0.0, 0.0
-        off = abs(torque) * shape.most / below * (_OFF + _NEAR / sqrt(below))
+        off = shape.most / below * (abs(torque) * (_OFF + _NEAR / sqrt(below)) + _DIGITS * most)
         return torque * shape.factor / below * sin(angle_rad - shape.phase), off
 
     @property

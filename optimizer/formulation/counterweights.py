@@ -10,7 +10,7 @@ from optimizer.mechanics.angles import angle_deg, direction
 from optimizer.mechanics.crank_of_web import own_throws
 from optimizer.mechanics.fixed_weights import beside
 from optimizer.mechanics.layout import stacked, web_radii
-from optimizer.mechanics.shapes import plates
+from optimizer.mechanics.shapes import every_plate, plates
 from optimizer.numerics.arrays import Complex, Real, all_true, any_true
 from optimizer.program.limits import Limits
 from schemas.answer.counterweights import Counterweight, Shape
@@ -91,7 +91,7 @@ def too_heavy(
     machine: Machine, weights: Sequence[FittedCounterweight | GivenCounterweight], field: str
 ) -> Iterator[FieldProblem]:
     """Counterweights of a field of the request that are more than the envelope of their web holds."""
-    cut, webs = plates(machine), machine.webs
+    cut, webs = every_plate(machine), machine.every_web
     if cut is None:
         return
     most = {webs[k].name: mass for k, mass in zip(cut.webs.tolist(), cut.mass(cut.most).tolist(), strict=True)}

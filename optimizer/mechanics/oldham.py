@@ -56,31 +56,55 @@ def keys(ring: Oldham, torque: Real, angle: Real) -> Keys:
     return Keys(couple, scroll, speed * np.abs(np.sin(own)), speed * np.abs(np.cos(own)))
 
 
-def largest_key(ring: Oldham, torque: Real, angle: Real) -> Real:
-    """Largest magnitude of what a key carries over the turn, (...) N, exact.
+def level_angles(ring: Oldham, torque: Real, angle: Real) -> Real:
+    """Shaft angles between which the load of every key rises or falls throughout, (..., M, 5) rad, each in its piece.
 
     Between entries of the torque a key in the scroll carries +-T/(2 R) - A cos(theta - u) with A = m e omega^2 / 2 and
-    T' constant: it is level where +-T'/(2 R) + A sin(theta - u) = 0. Keys in the frame carry most at entries.
+    T' constant: it is level where +-T'/(2 R) + A sin(theta - u) = 0. An angle that is none of its piece is moved to the
+    end of it; the last of five is its beginning.
 
     Parameters
     ----------
     torque : (..., M) N m, linear in between and periodic.
     angle : (..., M) rad, rising within one turn.
     """
-    following = np.concatenate([angle[..., 1:], angle[..., :1] + 2.0 * np.pi], axis=-1)
-    slope = (np.roll(torque, -1, axis=-1) - torque) / (following - angle)
+    following, slope = _pieces(torque, angle)
     reach, axis = np.asarray(ring.key_radius)[..., None], np.asarray(ring.axis)[..., None]
-    inertia = 0.5 * np.asarray(ring.mass * ring.orbit_radius * ring.omega**2)[..., None]
+    inertia = _inertia(ring)[..., None]
     share = slope / (2.0 * reach)
     level = np.arcsin(np.clip(share / np.where(inertia > 0.0, inertia, np.inf), -1.0, 1.0))
-    # of both signs of the couple, and of both angles with that sine; an angle that is none of its piece is moved to it
+    # of both signs of the couple, and of both angles with that sine
     own = np.stack([level, np.pi - level, -level, np.pi + level], axis=-1) + axis[..., None]
     start, wide = angle[..., None], (following - angle)[..., None]
     inside = np.minimum(np.mod(own - start, 2.0 * np.pi), wide)
-    where = np.concatenate([start + inside, start], axis=-1)
-    couple = (torque[..., None] + slope[..., None] * (where - start)) / (2.0 * reach[..., None])
-    pull = np.abs(inertia[..., None] * np.cos(where - axis[..., None]))
+    return np.concatenate([start + inside, start], axis=-1)
+
+
+def largest_key(ring: Oldham, torque: Real, angle: Real) -> Real:
+    """Largest magnitude of what a key carries over the turn, (...) N, exact: keys in the frame carry most at entries.
+
+    Parameters
+    ----------
+    torque : (..., M) N m, linear in between and periodic.
+    angle : (..., M) rad, rising within one turn.
+    """
+    where = level_angles(ring, torque, angle)
+    _, slope = _pieces(torque, angle)
+    reach, axis = np.asarray(ring.key_radius)[..., None, None], np.asarray(ring.axis)[..., None, None]
+    couple = (torque[..., None] + slope[..., None] * (where - angle[..., None])) / (2.0 * reach)
+    pull = np.abs(_inertia(ring)[..., None, None] * np.cos(where - axis))
     return np.asarray(np.max(np.abs(couple) + pull, axis=(-2, -1)))
+
+
+def _pieces(torque: Real, angle: Real) -> tuple[Real, Real]:
+    """Ends of the pieces between entries (..., M) rad, and slopes there (..., M) N m/rad."""
+    following = np.concatenate([angle[..., 1:], angle[..., :1] + 2.0 * np.pi], axis=-1)
+    return following, (np.roll(torque, -1, axis=-1) - torque) / (following - angle)
+
+
+def _inertia(ring: Oldham) -> Real:
+    """Half of the ring's largest inertia, (...) N."""
+    return 0.5 * np.asarray(ring.mass * ring.orbit_radius * ring.omega**2)
 
 
 def pin_losses(load: Real, diameter: Real, friction: Real, omega: Real) -> Real:

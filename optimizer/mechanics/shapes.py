@@ -3,7 +3,7 @@
 A fitted counterweight has a radius of its own, so what is fitted stands on a machine of plain webs.
 """
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from functools import lru_cache
 
 import numpy as np
@@ -12,10 +12,13 @@ from optimizer.mechanics.envelope import AnnularSector, Segment
 from optimizer.mechanics.plates import Plates
 from optimizer.numerics.arrays import Real
 from optimizer.numerics.memoization import remembered
+from schemas.base.rules import Path
 from schemas.base.variation import with_fields
 from schemas.machine.machine import Machine
 from schemas.machine.webs import Envelope
 
+#: from half-angles of plates, rad
+_CutMachine = Callable[[tuple[float, ...]], Machine]
 _SHAPES: Mapping[str, type[AnnularSector | Segment]] = {"sector": AnnularSector, "segment": Segment}
 
 
@@ -23,6 +26,12 @@ _SHAPES: Mapping[str, type[AnnularSector | Segment]] = {"sector": AnnularSector,
 def plates(machine: Machine) -> Plates | None:
     """The plates of the webs that have one; None where no web has."""
     envelopes = tuple(web.envelope for web in machine.webs)
+    return _side_by_side(envelopes) if any(envelopes) else None
+
+
+def every_plate(machine: Machine) -> Plates | None:
+    """The same of all webs of a machine, those of its balance shafts behind those of the crankshaft."""
+    envelopes = tuple(web.envelope for web in machine.every_web)
     return _side_by_side(envelopes) if any(envelopes) else None
 
 
@@ -55,13 +64,30 @@ def fitted(machine: Machine, half_angle: Real) -> Machine:
     half_angle : (P,) rad, of its plates; 0 has the radius that a first gram would have.
     """
     cut = plates(machine)
-    return machine if cut is None else _cut_machine(machine)(tuple(half_angle.tolist()))
+    return machine if cut is None else _of_webs(machine)(tuple(half_angle.tolist()))
+
+
+def fitted_everywhere(machine: Machine, half_angle: Real) -> Machine:
+    """The same of all plates (P,), those of balance shafts behind those of the crankshaft."""
+    cut = every_plate(machine)
+    return machine if cut is None else _of_every_web(machine)(tuple(half_angle.tolist()))
 
 
 @remembered
-def _cut_machine(machine: Machine) -> Callable[[tuple[float, ...]], Machine]:
+def _of_webs(machine: Machine) -> _CutMachine:
     """Fits the plates of a machine; the machine of the last verdict is also that of the answer, with its properties."""
-    cut = _side_by_side(tuple(web.envelope for web in machine.webs))
+    return _cut_machine(machine, plates(machine), [("webs", k) for k in range(len(machine.webs))])
+
+
+@remembered
+def _of_every_web(machine: Machine) -> _CutMachine:
+    paths = [(*path, k) for path, webs in machine.web_lists() for k in range(len(webs))]
+    return _cut_machine(machine, every_plate(machine), paths)
+
+
+def _cut_machine(machine: Machine, cut: Plates | None, paths: Sequence[Path]) -> _CutMachine:
+    """From half-angles of plates to the machine with their radii; webs by their paths."""
+    assert cut is not None  # else nothing is to be cut
 
     @lru_cache(maxsize=4)
     def with_radii(half_angle: tuple[float, ...]) -> Machine:
@@ -70,7 +96,7 @@ def _cut_machine(machine: Machine) -> Callable[[tuple[float, ...]], Machine]:
         fits = mass > 0.0
         radius = np.where(fits, cut.unbalance(angle) / np.where(fits, mass, 1.0), cut.lever(np.zeros(mass.shape)))
         at = zip(cut.webs.tolist(), radius.tolist(), strict=True)
-        return with_fields(machine, {("webs", k, "counterweight_radius_m"): value for k, value in at})
+        return with_fields(machine, {(*paths[k], "counterweight_radius_m"): value for k, value in at})
 
     return with_radii
 
@@ -81,7 +107,13 @@ def closed(machine: Machine) -> Machine:
     return machine if cut is None else fitted(machine, np.zeros(cut.webs.size))
 
 
+def closed_everywhere(machine: Machine) -> Machine:
+    """The same with the plates of its balance shafts."""
+    cut = every_plate(machine)
+    return machine if cut is None else fitted_everywhere(machine, np.zeros(cut.webs.size))
+
+
 def fitted_masses(machine: Machine, mass_kg: Real) -> Machine:
-    """The same for masses (K,) that are on the machine."""
-    cut = plates(machine)
-    return machine if cut is None else fitted(machine, cut.opened_for(mass_kg[cut.webs]))
+    """The same for masses (K + S,) that are on the machine and its balance shafts."""
+    cut = every_plate(machine)
+    return machine if cut is None else fitted_everywhere(machine, cut.opened_for(mass_kg[cut.webs]))

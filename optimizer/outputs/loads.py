@@ -11,6 +11,7 @@ from optimizer.formulation.simulation import Prepared
 from optimizer.mechanics.angles import direction
 from optimizer.mechanics.gas import forces_at_dead_centres, pressure_range
 from optimizer.mechanics.layout import stacked, web_radii
+from optimizer.mechanics.plates import Plates
 from optimizer.mechanics.row_series import Reading
 from optimizer.mechanics.shaft import INFLUENCES, bearing_places
 from optimizer.mechanics.shapes import plates
@@ -30,6 +31,7 @@ from optimizer.outputs.peaks import (
 )
 from schemas.answer.loads import Loads
 from schemas.answer.outputs import labels
+from schemas.base.variation import with_fields
 from schemas.machine.reciprocating import ReciprocatingMachine
 from schemas.machine.throws import row_cylinders
 
@@ -204,14 +206,15 @@ def _turning(scene: Prepared, machine: ReciprocatingMachine, fitted: Complex | N
     places, masses = (stacked(column) for column in zip(*parts, strict=True))
     if fitted is None:
         return places, masses
-    return side_by_side(places, scene.layout.webs.position), side_by_side(masses, _fitted_masses(machine, fitted))
+    of_webs = _masses(web_radii(machine), plates(machine), fitted)
+    return side_by_side(places, scene.layout.webs.position), side_by_side(masses, of_webs)
 
 
-def _fitted_masses(machine: ReciprocatingMachine, fitted: Complex) -> Real:
+def _masses(radius: Real, cut: Plates | None, fitted: Complex) -> Real:
     """Masses (..., webs) kg of counterweights (..., webs) kg m; 0 where a design has none."""
     size = np.abs(fitted)
     size = np.where(np.isnan(size), 0.0, size)
-    masses, cut = size / web_radii(machine), plates(machine)
+    masses = size / radius
     if cut is not None:
         # of what a plate is opened for, many designs have no radius
         of_plates = masses[..., cut.webs]
@@ -250,9 +253,8 @@ def whole_weight(scene: Prepared, machine: ReciprocatingMachine, fitted: Complex
     _, turning = _turning(scene, machine, fitted)
     shafts: Real | float = 0.0
     if scene.layout.balance is not None and scene.shafts is not None:
-        size = np.abs(scene.shafts) / scene.layout.balance.radius
-        # of designs without counterweights they are nan
-        shafts = np.sum(np.where(np.isnan(size), 0.0, size), axis=-1)
+        webs = with_fields(machine, {("webs",): machine.every_web[len(machine.webs) :]})
+        shafts = np.sum(_masses(web_radii(webs), plates(webs), scene.shafts), axis=-1)
     moving = np.sum(turning, axis=-1) + np.sum(scene.layout.reciprocating.mass, axis=-1) + shafts
     return np.asarray((machine.stationary_mass_kg + moving) * GRAVITY)
 

@@ -4,7 +4,7 @@ from collections.abc import Callable
 
 import numpy as np
 
-from optimizer.mechanics.oldham import Keys, Oldham, keys, largest_key, pin_losses
+from optimizer.mechanics.oldham import Keys, Oldham, keys, largest_key, level_angles, pin_losses
 from optimizer.numerics.arrays import Real
 from optimizer.pins.loads import PeriodicTable, levers
 from optimizer.pins.pattern import Pattern
@@ -42,7 +42,11 @@ def compared(
         return np.column_stack([ring_keys.frame, ring_keys.scroll])
 
     panel = _PANEL_WITH_PLAY_DEG if pattern.has_clearance else _PANEL_DEG
-    angle, weight = _quadrature(360.0, np.append(torque.angle_deg, pattern.dead_deg), panel, pin_forces)
+    breaks = np.concatenate([torque.angle_deg, torque.changes_deg])
+    # two changes of one pin may be nearer than a panel is wide: of its torque, and of its lever
+    levels = np.zeros(0) if pattern.has_clearance else pattern.shapes().phase_deg + np.array([[0.0], [180.0]])
+    own = np.concatenate([breaks, pattern.dead_deg, levels.ravel() % 360.0])
+    angle, weight = _quadrature(360.0, own, panel, pin_forces)
     of_pins = pin_losses(
         pin_forces(angle),
         np.asarray(comparison.pin_diameter_m),
@@ -54,7 +58,9 @@ def compared(
     friction = np.asarray(ring.friction_coefficient)
     # sliding speeds change their signs on the ring's axis and across it
     axes = np.mod(ring.axis_deg + np.arange(0.0, 360.0, 90.0), 360.0)
-    angle, weight = _quadrature(360.0, np.append(torque.angle_deg, axes), _PANEL_DEG, key_forces)
+    # and loads theirs once at most where they rise or fall throughout
+    level = np.rad2deg(level_angles(data, torque.value, np.deg2rad(torque.angle_deg))).ravel() % 360.0
+    angle, weight = _quadrature(360.0, np.concatenate([breaks, axes, level]), _PANEL_DEG, key_forces)
     of_ring = keys(data, torque.at(angle), np.deg2rad(angle)).loss(friction)
     loss = float(np.sum(weight * of_ring)) / (2.0 * np.pi)
     at_samples = keys(data, torque.at(angle_deg), np.deg2rad(angle_deg))

@@ -66,6 +66,14 @@ class PeriodicTable:
     def keeps_its_sign(self) -> bool:
         return bool(np.all(self.value > 0.0) or np.all(self.value < 0.0))
 
+    @property
+    def changes_deg(self) -> Real:
+        """Where it changes its sign between two entries, (q,) in [0, 360)."""
+        following, next_value = np.append(self.angle_deg[1:], self.angle_deg[0] + 360.0), np.roll(self.value, -1)
+        share = self.value / np.where(self.value == next_value, np.inf, self.value - next_value)
+        angle = self.angle_deg + share * (following - self.angle_deg)
+        return np.asarray(angle[(share > 0.0) & (share < 1.0)] % 360.0)
+
 
 def gas_torques(tangential_force: Real, orbit_radius: Real) -> tuple[Real, Real]:
     """Rotation torque and orbiting resistance torque of the tangential gas force, N m (...).

@@ -11,7 +11,7 @@ from optimizer.formulation.limits import limits
 from optimizer.formulation.simulation import Prepared
 from optimizer.formulation.task import Task
 from optimizer.mechanics.plates import Plates
-from optimizer.mechanics.shapes import closed, fitted, plates
+from optimizer.mechanics.shapes import closed, every_plate, fitted_everywhere, plates
 from optimizer.numerics.arrays import Complex, Real
 from optimizer.program.equal_castings import Alike
 from optimizer.program.limits import Limits
@@ -40,7 +40,7 @@ def cut_plates(task: Task, scene: Prepared, goals: Goals, u: Complex, reached: L
     ----------
     reached : limits that the proofs count with.
     """
-    of_machine, machine = plates(task.machine), task.space.machine
+    of_machine, machine = every_plate(task.machine), task.space.machine
     if of_machine is None:
         return CutPlates(task, scene, goals, *masses_and_angles(machine, u, reached))
     angle = openings(of_machine, u, reached.alike)
@@ -48,10 +48,11 @@ def cut_plates(task: Task, scene: Prepared, goals: Goals, u: Complex, reached: L
     near = (np.abs(angle[:, None] - angle) <= SAME_SIZE * angle) & (of_machine.kinds[:, None] == of_machine.kinds)
     first, same = np.argmax(near, axis=1), np.arange(u.size)
     angle, same[of_machine.webs] = angle[first], of_machine.webs[first]
-    task = replace(task, machine=fitted(task.machine, angle))
+    task = replace(task, machine=fitted_everywhere(task.machine, angle))
     # the price of a budget is that of its pieces: a plate has a price of its own where it is full
-    within = limits_of_cut(limits(task.machine), reached, of_machine, of_machine.most)
-    mass, towards = masses_and_angles(task.machine, u, within)
+    machine = task.space.machine
+    within = limits_of_cut(limits(machine), reached, of_machine, of_machine.most)
+    mass, towards = masses_and_angles(machine, u, within)
     goals = replace(goals, program=goals.program.changed(limits=within))
     return CutPlates(task, replace(scene, machine=task.machine), goals, mass[same], towards)
 

@@ -76,7 +76,7 @@ class ParetoRequest(OptimizeRequest):
     def is_nonconvex(self) -> bool:
         """Whether counterweights have options, minimum masses, or plates."""
         machine = self.machine
-        return machine.choice is not None or any(web.envelope is not None for web in machine.webs)
+        return machine.choice is not None or any(web.envelope is not None for web in machine.every_web)
 
     def rules(self) -> Iterator[Rule]:
         yield from super().rules()

@@ -119,22 +119,12 @@ class ReciprocatingMachine(Rotor):
                 yield Rule(beyond, ("webs", k, "throw"), f"the machine has {len(self.throws)} throw(s), counted from 0")
         if self.friction is not None:
             yield from self.friction.row_rules(rows)
-        if self.balance_shafts:
-            yield from self._envelope_rules()
         if self.bearings:
             yield from _bearing_rules(self.bearings)
         if self.shaft_parts:
             yield from unique_names(("shaft_parts",), [part.name for part in self.shaft_parts])
         if self.balance_shafts:
             yield from self._shaft_rules()
-
-    def _envelope_rules(self) -> Iterator[Rule]:
-        """Beside balance shafts nothing is cut from a plate."""
-        yield from self.no_envelopes("not beside balance shafts")
-        for n, shaft in enumerate(self.balance_shafts):
-            for k, web in enumerate(shaft.webs):
-                path = ("balance_shafts", n, "webs", k, "envelope")
-                yield Rule(web.envelope is not None, path, "a balance shaft's weights have a known radius")
 
     def _shaft_rules(self) -> Iterator[Rule]:
         """Rules of the balance shafts."""

@@ -99,8 +99,9 @@ class Rotor(Ruled):
 
     def no_envelopes(self, message: str) -> Iterator[Rule]:
         """Rules that no web has an envelope, with paths from the machine."""
-        for k, web in enumerate(self.webs):
-            yield Rule(web.envelope is not None, ("webs", k, "envelope"), message)
+        for place, webs in self.web_lists():
+            for k, web in enumerate(webs):
+                yield Rule(web.envelope is not None, (*place, k, "envelope"), message)
 
     def _group_rules(self) -> Iterator[Rule]:
         """Every web of a group exists, is in no other, and has options."""

@@ -25,7 +25,7 @@ class AccuracyRequest(OptimizeRequest):
     def has_production_limits(self) -> bool:
         """Whether counterweights are as a workshop makes them: options, minimum masses, equal castings, or plates."""
         machine = self.machine
-        cut = any(web.envelope is not None for web in machine.webs)
+        cut = any(web.envelope is not None for web in machine.every_web)
         return machine.choice is not None or bool(machine.web_groups) or cut
 
     def rules(self) -> Iterator[Rule]:

@@ -23,5 +23,5 @@ class DrawingsRequest(OptimizeRequest):
     def rules(self) -> Iterator[Rule]:
         yield from super().rules()
         yield from fitted_rules(self.machine, self.counterweights or ())
-        plain = all(web.envelope is None for web in self.machine.webs)
+        plain = all(web.envelope is None for web in self.machine.every_web)
         yield Rule(plain, ("machine", "webs"), "a drawing needs the envelope of a web; none has one")

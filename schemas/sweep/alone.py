@@ -25,7 +25,7 @@ def separate(base: OptimizeRequest | AnalyzeRequest, targets: Sequence[Target]) 
     """Whether designs are no batch of one program."""
     if not isinstance(base, OptimizeRequest):
         return False
-    plates = any(web.envelope is not None for web in base.machine.webs)
+    plates = any(web.envelope is not None for web in base.machine.every_web)
     # cuts find what scatters, and scenarios are machines of their own
     alone = plates or base.machine.web_groups or base.uncertain
     return bool(alone or searched(base, targets))

@@ -9,7 +9,7 @@ from schemas.answer.counterweights import Counterweight
 from service.drawings.bill import as_csv, as_workbook
 from service.drawings.drawing_set import DrawingSet
 from service.drawings.dxf import dxf
-from service.drawings.outline import rotation
+from service.drawings.outline import Point, rotation
 from service.drawings.parts import Part
 from service.drawings.sheet import sheet
 from service.drawings.step import Solid, step
@@ -45,13 +45,12 @@ def _placed(drawings: DrawingSet) -> Iterator[Solid]:
     """Every counterweight where it sits at shaft angle 0, in the coordinates of the machine."""
     for part in drawings.parts:
         for place in part.places:
-            yield _solid(part, place)
+            yield _solid(part, place, drawings.axes.get(place.web, (0.0, 0.0)))
 
 
-def _solid(part: Part, counterweight: Counterweight) -> Solid:
+def _solid(part: Part, counterweight: Counterweight, axis: Point) -> Solid:
     half = 0.5 * part.envelope.thickness_m
     # drawn upwards, which is at a right angle
     edges = rotation(part.outline, radians(counterweight.angle_deg) - 0.5 * pi)
-    return Solid(
-        f"Counterweight {counterweight.web}", edges, counterweight.position_m - half, counterweight.position_m + half
-    )
+    low, high = counterweight.position_m - half, counterweight.position_m + half
+    return Solid(f"Counterweight {counterweight.web}", edges, low, high, axis)

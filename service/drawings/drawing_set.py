@@ -1,6 +1,7 @@
 """From a request to its drawings: what is drawn, and where it sits."""
 
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, field
 
 from optimizer.analyze import analyze
 from optimizer.errors import OutOfRange
@@ -8,8 +9,10 @@ from optimizer.optimize import optimize
 from schemas.answer.answers import AnalyzeAnswer, OptimizeAnswer
 from schemas.answer.counterweights import Counterweight, every_counterweight
 from schemas.base.model import FieldProblem
+from schemas.machine.reciprocating import balance_shafts
 from schemas.request.drawings import DrawingsRequest
 from schemas.request.requests import AnalyzeRequest
+from service.drawings.outline import Point
 from service.drawings.parts import Part, parts
 from service.tables.as_built import AsBuilt, as_built
 
@@ -22,6 +25,7 @@ class DrawingSet:
     status : of the answer; "given" without an optimisation.
     fitted : all counterweights, also those without a plate, which cannot be drawn.
     built : what is fitted beside the optimum, where the request says so; then `fitted` are those that are built.
+    axes : of balance shafts, by the names of their webs, m; all others turn about the origin.
     """
 
     title: str
@@ -29,6 +33,7 @@ class DrawingSet:
     parts: tuple[Part, ...]
     fitted: tuple[Counterweight, ...]
     built: AsBuilt | None = None
+    axes: Mapping[str, Point] = field(default_factory=dict)
 
 
 def drawings(request: DrawingsRequest) -> DrawingSet:
@@ -51,7 +56,9 @@ def drawings(request: DrawingsRequest) -> DrawingSet:
             [FieldProblem(_origin(request), "no counterweight is cut from a plate: there is none to draw")]
         )
     status = getattr(answer, "status", "given")
-    return DrawingSet(request.machine.name or "machine without a name", status, plates, fitted, built)
+    shafts = balance_shafts(request.machine)
+    axes = {web.name: (shaft.x_m, shaft.y_m) for shaft in shafts for web in shaft.webs}
+    return DrawingSet(request.machine.name or "machine without a name", status, plates, fitted, built, axes)
 
 
 def _answer(request: DrawingsRequest) -> OptimizeAnswer | AnalyzeAnswer:

@@ -51,7 +51,7 @@ def parts(machine: Machine, fitted: Iterable[Counterweight]) -> tuple[Part, ...]
 
 
 def _cut(machine: Machine, fitted: Iterable[Counterweight]) -> Iterator[tuple[Envelope, float, Counterweight]]:
-    envelopes = {web.name: web.envelope for web in machine.webs}
+    envelopes = {web.name: web.envelope for web in machine.every_web}
     for counterweight in fitted:
         envelope = envelopes.get(counterweight.web)
         if envelope is not None and counterweight.shape is not None:

@@ -8,7 +8,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from math import hypot
 
-from service.drawings.outline import Arc, Edge, Line, Outline
+from service.drawings.outline import Arc, Edge, Line, Outline, Point
 
 _HEADER = """ISO-10303-21;
 HEADER;
@@ -31,19 +31,26 @@ _ALONG_X: Vector = (1.0, 0.0, 0.0)
 
 @dataclass(frozen=True)
 class Solid:
-    """An outline that is extruded from one plane of the shaft to another, m."""
+    """An outline that is extruded from one plane of the shaft to another, m.
+
+    axis : where the shaft crosses these planes.
+    """
 
     name: str
     outline: Outline
     low: float
     high: float
+    axis: Point = (0.0, 0.0)
 
 
 def step(name: str, solids: Sequence[Solid]) -> bytes:
     """A file of some solids."""
     file = _File()
     for solid in solids:
-        _product(file, solid.name, _body(file, solid))
+        file.axis = solid.axis
+        body_of_solid = _body(file, solid)
+        file.axis = (0.0, 0.0)
+        _product(file, solid.name, body_of_solid)
     body = "".join(f"#{number}={entity};\n" for number, entity in enumerate(file.entities, 1))
     return (_HEADER.format(name=_text(name)) + body + _END).encode("ascii")
 
@@ -53,6 +60,8 @@ class _File:
 
     def __init__(self) -> None:
         self.entities: list[str] = []
+        #: about which points are, m
+        self.axis: Point = (0.0, 0.0)
         self.application = self.add("APPLICATION_CONTEXT('core data for automotive mechanical design processes')")
         standard = (
             f"APPLICATION_PROTOCOL_DEFINITION('international standard','automotive_design',2000,{self.application})"
@@ -76,7 +85,8 @@ class _File:
     # ---- geometry
 
     def point(self, at: Vector) -> Reference:
-        return self.add(f"CARTESIAN_POINT('',{_reals(at)})")
+        (x, y, level), (across, up) = at, self.axis
+        return self.add(f"CARTESIAN_POINT('',{_reals((x + 1e3 * across, y + 1e3 * up, level))})")
 
     def direction(self, along: Vector) -> Reference:
         return self.add(f"DIRECTION('',{_reals(along)})")

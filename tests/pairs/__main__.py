@@ -5,7 +5,7 @@ from collections import Counter
 from collections.abc import Iterable
 
 from tests.pairs.asking import Outcome, ask
-from tests.pairs.combinations import Combination, all_pairs, random_triples
+from tests.pairs.combinations import Combination, all_pairs, pairs_of_pins, random_triples
 
 _SHOWN = 10
 
@@ -40,7 +40,11 @@ def main() -> int:
         "--time-limit", type=float, default=0.5, help="accuracy.time_limit_s of requests that say none"
     )
     arguments = options.parse_args()
-    faults = 0 if arguments.no_pairs else _print_outcomes("all pairs", all_pairs(), arguments.time_limit)
+    faults = (
+        0
+        if arguments.no_pairs
+        else _print_outcomes("all pairs", [*all_pairs(), *pairs_of_pins()], arguments.time_limit)
+    )
     faults += _print_outcomes("random triples", random_triples(arguments.triples, arguments.seed), arguments.time_limit)
     return 1 if faults else 0
 

@@ -6,21 +6,25 @@ import traceback
 from collections.abc import Iterator, Sequence
 from copy import deepcopy
 from dataclasses import dataclass
-from typing import Literal
+from typing import Any, Literal
 
 import numpy as np
 
 from optimizer.errors import NotComputable
 from optimizer.formulation.formulate import weights
 from optimizer.optimize import optimize
+from optimizer.pins.answer import pin_loads
 from optimizer.program.verdict import CONTRADICTED
 from schemas.answer.answers import OptimizeAnswer
 from schemas.request.objective import COSTS
 from schemas.request.requests import OptimizeRequest
+from schemas.scroll.pin_loads import PinLoadsAnswer, PinLoadsRequest
 from service.common.validation import InvalidRequest, check
 from service.verification import checker
-from tests.pairs.features import FEATURES
+from tests.pairs.combinations import PINS, features_of
 from tests.pairs.machines import BASES, Request
+from tests.pairs.pins import wrong_loads
+from tests.pairs.scroll_features import EVEN_PINS
 from tests.pairs.subject import NoPlace, Subject
 
 #: relative, of the yardstick: what rounding may make of a bound
@@ -57,13 +61,15 @@ class Outcome:
 
 def body_of(base: str, features: Sequence[str], time_limit_s: float = TIME_LIMIT_S) -> Request | None:
     """A request with features in their order; None where the machine has no place for one."""
-    body = deepcopy(BASES[base])
+    body = deepcopy({**BASES, PINS: EVEN_PINS}[base])
     subject = Subject(base, body)
     try:
         for name in features:
-            FEATURES[name](subject)
+            features_of(base)[name](subject)
     except NoPlace:
         return None
+    if base == PINS:
+        return body
     body.setdefault("accuracy", {}).setdefault("time_limit_s", time_limit_s)
     return body
 
@@ -76,8 +82,7 @@ def ask(base: str, features: Sequence[str], time_limit_s: float = TIME_LIMIT_S) 
         return Outcome(base, names, "no place")
     begun = time.thread_time()
     try:
-        request = check(OptimizeRequest, body)
-        answer = optimize(request)
+        request, answer = _answered(base, body)
         text = answer.model_dump_json()
     except (InvalidRequest, NotComputable) as refusal:
         first = next(iter(refusal.problems), None)
@@ -89,9 +94,22 @@ def ask(base: str, features: Sequence[str], time_limit_s: float = TIME_LIMIT_S) 
         where = f"{frame.filename.rpartition('/')[2]}:{frame.lineno} {frame.name}"
         return Outcome(base, names, "fault", f"{type(error).__name__}: {error} ({where})")
     spent = time.thread_time() - begun
-    wrong = [*_unlike_numbers(text), *_wrong(request, answer), *_broken_claims(body, text)]
+    if isinstance(answer, PinLoadsAnswer):
+        claims, status = wrong_loads(request, answer), "holds" if answer.equilibrium.holds else "does not hold"
+    else:
+        claims, status = _wrong(request, answer), answer.status
+    wrong = [*_unlike_numbers(text), *claims, *_broken_claims(body, text)]
     kind: Kind = "fault" if wrong else "answered"
-    return Outcome(base, names, kind, "; ".join(wrong), answer.status, spent)
+    return Outcome(base, names, kind, "; ".join(wrong), status, spent)
+
+
+def _answered(base: str, body: Request) -> tuple[Any, OptimizeAnswer | PinLoadsAnswer]:
+    """The request that a body is, and its answer."""
+    if base == PINS:
+        pins = check(PinLoadsRequest, body)
+        return pins, pin_loads(pins)
+    request = check(OptimizeRequest, body)
+    return request, optimize(request)
 
 
 def _unlike_numbers(text: str) -> Iterator[str]:

@@ -292,6 +292,20 @@ FEATURES: Mapping[str, Feature] = {
     "balance shaft of order 2": partial(_balance_shafts, ratio=2),
     "least fitted on a shaft": partial(_balance_shafts, ratio=-1, min_fitted_mass_kg=3.0),
     "bolts on a shaft": partial(_balance_shafts, ratio=2, max_centrifugal_force_N=300.0),
+    "plate on a shaft": partial(
+        _balance_shafts,
+        ratio=-1,
+        counterweight_radius_m=None,
+        max_mass_kg=None,
+        envelope={"shape": "segment", "inner_radius_m": 0.01, "outer_radius_m": 0.08, "thickness_m": 0.03},
+    ),
+    "sector plate on a shaft": partial(
+        _balance_shafts,
+        ratio=1,
+        counterweight_radius_m=None,
+        max_mass_kg=None,
+        envelope={"shape": "sector", "inner_radius_m": 0.02, "outer_radius_m": 0.09, "thickness_m": 0.02},
+    ),
     "castings on a shaft": partial(
         _balance_shafts, ratio=-1, catalogue_masses_kg=[2.0, 4.0], hole_angles_deg=[90.0, 200.0, 310.0]
     ),

@@ -56,3 +56,15 @@ class Subject:
         if not rows:
             raise NoPlace
         return rows
+
+    @property
+    def pins(self) -> dict[str, Any]:
+        """A request for the loads of pins."""
+        if "machine" in self.body:
+            raise NoPlace
+        return self.body
+
+    @property
+    def scroll(self) -> dict[str, Any]:
+        """What turns a scroll and what holds it: of its machine, or of a request for the loads of its pins."""
+        return self.machine if "machine" in self.body else self.body

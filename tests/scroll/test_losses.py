@@ -84,3 +84,24 @@ def test_largest_keys_of_many_rings_are_above_all_samples_independent(seed: int)
         sampled = max(np.max(np.abs(value.frame)), np.max(np.abs(value.scroll)))
         assert sampled <= largest * (1.0 + 1e-12)
         assert sampled == pytest.approx(largest, rel=1e-2)
+
+
+@pytest.mark.parametrize("apart_deg", [-1.3, 0.45])
+def test_a_pin_that_changes_its_sign_twice_at_once_independent(apart_deg: float) -> None:
+    """Regression: torque and lever of the second of seven pins are 0 within a panel, a millionth of the loss."""
+    zero = 360.0 / 7.0 + apart_deg
+    torques = {"angle_deg": [zero - 3.0, zero + 3.0], "torque_Nm": [-10.0, 10.0]}
+    body = compared_body(0, False) | {"rotation_torque_Nm": torques, "drive_bearing": {"type": "free"}}
+    del body["pins"]
+    losses = ask(**body | {"pin_count": 7, "pin_circle_radius_m": 0.06}).comparison
+    assert losses is not None
+    phases = 360.0 / 7.0 * np.arange(7)
+    kinks = [*phases, *phases + 180.0, *torques["angle_deg"], zero, zero + 180.0, 0.0]
+    edges = np.unique([*np.mod(kinks, 360.0).tolist(), 360.0])
+    nodes, weights = np.polynomial.legendre.leggauss(20)
+    half = 0.5 * np.diff(edges)[:, None]
+    angle = (edges[:-1, None] + half + half * nodes).ravel()
+    torque = np.interp(angle, torques["angle_deg"], torques["torque_Nm"], period=360.0)
+    load = 2.0 * torque[:, None] / (7.0 * 0.06) * np.sin(np.deg2rad(angle[:, None] - phases))
+    mean = np.sum((half * weights).ravel() * np.sum(np.abs(load), axis=-1)) / 360.0
+    assert losses.pins_W == pytest.approx(mean * 0.008 * 0.002 * 100.0 * np.pi, rel=1e-12)

@@ -15,6 +15,7 @@ from schemas.scroll.pin_loads import PinLoadsRequest
 from service.documents.examples import bodies
 from service.verification import checker
 from tests.night import by_day
+from tests.pairs.asking import body_of
 from tests.verification.answers import answered
 from tests.verification.anything import JSON, judged, paths
 from tests.verification.anything import replaced as replaced_anywhere
@@ -319,3 +320,37 @@ def test_nothing_that_is_sent_raises(data: st.DataObject) -> None:
     for _ in range(data.draw(st.integers(0, 2))):
         answer = replaced_anywhere(answer, data.draw(st.sampled_from(paths(answer))), data.draw(JSON))
     judged(request, answer)
+
+
+def _grazing() -> dict[str, list[float]]:
+    """A torque that a heavy ring's inertia exceeds for less than a degree, 45 degrees from its axis."""
+    inertia = 2.0 * _RING["key_radius_m"] * 0.5 * 40.0 * 0.005 * (100.0 * pi) ** 2 * cos(pi / 4.0)
+    return {
+        "angle_deg": [60.0, 90.0],
+        "torque_Nm": [inertia * (1.0 - 3e-5 + sign * radians(15.0)) for sign in (1.0, -1.0)],
+    }
+
+
+@pytest.mark.parametrize(
+    "torque", [12.0, {"angle_deg": [0.0, 90.0, 200.0], "torque_Nm": [14.0, -6.0, 3.0]}, _grazing()]
+)
+def test_losses_of_a_heavy_ring_are_held(torque: Any) -> None:
+    """Regression: its keys change sides beside the ends of the pieces of an integral, which did not see it."""
+    ring = {**_RING, "mass_kg": 40.0, "axis_deg": 30.0}
+    body = body_of("pins", ("comparison",))
+    assert body is not None
+    body |= {"rotation_torque_Nm": torque, "comparison": {**body["comparison"], "oldham_ring": ring}}
+    answer = _answer(body)
+    assert not broken(body, answer)
+    loss = ("comparison", "oldham_ring", "loss_W")
+    assert is_broken(body, replaced(answer, loss, at(answer, loss) * (1.0 + 1e-7)))
+
+
+def test_a_load_beside_a_change_of_sign_is_held() -> None:
+    """Regression: the torque is a difference of its entries there, whose digits are those of the entries."""
+    torques = {"angle_deg": [105.80581690866347, 134.19339127536264], "torque_Nm": [-10.0, 10.0]}
+    body = {"pin_count": 3, "pin_circle_radius_m": 0.06, "rotation_torque_Nm": torques, "angles": {"step_deg": 120.0}}
+    answer = _answer(body)
+    assert not broken(body, answer)
+    load = ("pins", 0, "load_N", 1)
+    assert is_broken(body, replaced(answer, load, at(answer, load) * (1.0 + 1e-9)))

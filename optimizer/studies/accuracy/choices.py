@@ -23,7 +23,7 @@ from optimizer.formulation.simulation import Prepared
 from optimizer.formulation.task import Task
 from optimizer.mechanics.fixed_weights import fixed_mass
 from optimizer.mechanics.layout import stacked
-from optimizer.mechanics.shapes import closed, plates
+from optimizer.mechanics.shapes import closed, every_plate
 from optimizer.numerics.arrays import Complex, Real
 from optimizer.numerics.memoization import cached_property
 from optimizer.numerics.records import record
@@ -190,7 +190,7 @@ class _Ways:
             # groups and plates alone are no search
             for limit in (*(seconds for seconds in LIMITS_S if seconds < longest), longest):
                 yield Rung("service", f"{limit:g} s", "time", self._service(_CLOSEST, limit))
-        if plates(machine) is None:
+        if every_plate(machine) is None:
             yield Rung("rounding", "nearest", "none", lambda _: self._rounded())
 
     def warm_up(self) -> None:

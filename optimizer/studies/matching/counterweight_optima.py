@@ -6,7 +6,7 @@ searched, cut or certified by itself.
 """
 
 import time
-from typing import NamedTuple
+from typing import NamedTuple, cast
 
 import numpy as np
 
@@ -17,7 +17,7 @@ from optimizer.formulation.task import Task
 from optimizer.mechanics.fixed_weights import laden
 from optimizer.mechanics.inertia import reciprocating, rotating
 from optimizer.mechanics.layout import layout, spread
-from optimizer.mechanics.shapes import closed, plates
+from optimizer.mechanics.shapes import closed_everywhere, every_plate
 from optimizer.numerics.arrays import Real
 from optimizer.numerics.memoization import cached_property
 from optimizer.numerics.records import record
@@ -64,7 +64,7 @@ class CounterweightOptima:
     def is_nonconvex(self) -> bool:
         """Whether every assignment is certified by itself: with options, minimum masses, or plates."""
         machine = self.request.machine
-        return machine.choice is not None or plates(machine) is not None
+        return machine.choice is not None or every_plate(machine) is not None
 
     def at(self, mass: Real, best: float) -> Solved:
         """Assignments (N, T), and what they prove of all.
@@ -96,8 +96,7 @@ class CounterweightOptima:
     @cached_property
     def _convex_machine(self) -> ReciprocatingMachine:
         """The machine whose counterweights have any mass within their limits; plates reach as far as they can."""
-        machine = self.request.machine
-        return with_fields(machine, {("webs",): closed(machine).webs})
+        return cast(ReciprocatingMachine, closed_everywhere(self.request.machine))
 
     def _programs(self, row_mass: Real) -> Statement:
         machine = with_masses(self._convex_machine, row_mass)

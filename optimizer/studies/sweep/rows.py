@@ -3,12 +3,14 @@
 import logging
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from functools import partial
+from itertools import chain
 from typing import Any, Generic, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
 
 from optimizer.errors import NotComputable
+from optimizer.formulation.counterweights import too_heavy
 from optimizer.formulation.placement import on_webs
 from optimizer.numerics.arrays import Complex, Real
 from optimizer.numerics.memoization import remembered
@@ -257,15 +259,16 @@ def _fill_singles(table: Rows, group: Group[OptimizeRequest], designs: Designs) 
         alone, at = group.single(design), np.array([design])
         if not _refuse(table, at, all_rules(alone)).size:
             continue
-        lacking = next(missing(alone.machine, alone.objective), None) if alone.objective.over_the_turn else None
-        if not _refuse(table, at, [Rule(True, *lacking)] if lacking else []).size:
+        lacking = missing(alone.machine, alone.objective) if alone.objective.over_the_turn else ()
+        refusal = next(chain(lacking, too_heavy(alone.machine, alone.fitted, "fitted")), None)
+        if not _refuse(table, at, [Rule(True, *refusal)] if refusal else []).size:
             continue
         if not _with_inputs(table, group, at, {design: alone}).size:
             continue
         try:
             columns, unbalance = single_optima([alone], group.multipliers)
-        except NotComputable as refusal:
-            table.refuse(at, Rule(True, *refusal.problems[0]))
+        except NotComputable as error:
+            table.refuse(at, Rule(True, *error.problems[0]))
             continue
         table.put(at, columns)
         unbalances[design] = unbalance[0]
