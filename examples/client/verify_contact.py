@@ -18,6 +18,8 @@ from verify_pins import Pins, Turn
 #: of strains and clearances: by which doubles are off; of the largest load: what is certified as a rule
 STRAINED, CERTIFIED = 1e-10, 1e-6
 EXACT = 1e-9
+#: of the radius: by which the sine of a lever that vanishes is off
+LEVER = 1e-15
 
 
 def contact(claim: str, turn: Turn, place: Place, loads: List[List[float]]) -> Claims:
@@ -68,12 +70,15 @@ def _bears(claim: str, place: Place, samples: Sequence[float]) -> Claims:
 def _shift(pins: Pins, samples: Sequence[float], angle: float, rotation: float, bound: float) -> Tuple[float, float]:
     """How much room there is for one shift that all loads have, and the size of what it is made of [m]."""
     low, high, whole = (0.0, 0.0, 0.0) if pins.is_rigid else (-inf, inf, 0.0)
-    members = [(pins.stiffness[k], pins.clearances[k], pins.errors[k], pins.lever(k, angle)) for k in range(pins.count)]
-    members += [] if pins.is_rigid or not pins.drive else [(pins.drive, 0.0, 0.0, 0.0)]
-    for (stiffness, clearance, error, lever), load in zip(members, samples):
+    members = [
+        (pins.stiffness[k], pins.clearances[k], pins.errors[k], pins.lever(k, angle), LEVER * pins.radii[k])
+        for k in range(pins.count)
+    ]
+    members += [] if pins.is_rigid or not pins.drive else [(pins.drive, 0.0, 0.0, 0.0, 0.0)]
+    for (stiffness, clearance, error, lever, blur), load in zip(members, samples):
         strain, twist = load / stiffness, lever * rotation
         size = abs(strain) + clearance + abs(error) + abs(twist)
-        off = STRAINED * size + bound / stiffness
+        off = STRAINED * size + bound / stiffness + abs(rotation) * blur
         start = error - twist + strain
         ends = (start + clearance, start + clearance) if load > 0 else (start - clearance, start - clearance)
         ends = ends if load else (start - clearance, start + clearance)

@@ -58,7 +58,8 @@ infeasibility: conflict smallest_force_N smallest_moment_Nm smallest_force_lower
   smallest_implied_max_mass_kg closest multipliers
 smallest: response ceiling_field ceiling smallest lower_bound multipliers
 closest: counterweights balance_shafts first_order responses
-infeasibility/multipliers: conflict smallest_force smallest_moment
+infeasibility/multipliers: conflict smallest_force smallest_moment scenarios
+multipliers/scenarios: scenario conflict
 balance_rate: throw name rate sideways
 balance_quality: permissible_kg_m before after
 balance_quality/before balance_quality/after: grade_mm_s plane_a plane_b

@@ -68,7 +68,8 @@ class Program:
         program.goal_names, program.levels = self.goal_names[: goal + 1], self.levels[:goal]
         return program
 
-    def _part(self, cut: Place) -> Part:
+    def part(self, cut: Place) -> Part:
+        """The machine of its case."""
         name = (cut / "scenario").text() if cut / "scenario" else None
         if name not in self.parts:
             raise NotCovered(cut)
@@ -82,9 +83,9 @@ class Program:
         allowed = {(row / "name").text(): (row / "value").number(least=0) for row in proof / "rows"}
         cuts: Dict[Tuple[Part, str], List[Place]] = {}
         for cut in places:
-            cuts.setdefault((self._part(cut), (cut / "row").text()), []).append(cut)
+            cuts.setdefault((self.part(cut), (cut / "row").text()), []).append(cut)
         worst = {key: key[0].worst(of_row, allowed.get(key[1], ZERO)) for key, of_row in cuts.items()}
-        return [part.term(cut, worst[part, (cut / "row").text()]) for cut in places for part in [self._part(cut)]]
+        return [part.term(cut, worst[part, (cut / "row").text()]) for cut in places for part in [self.part(cut)]]
 
     def reached(self, terms: List[Term], fitted: Fitted) -> Number:
         """What counterweights come to of the last goal, at the angles of the cuts."""
@@ -132,34 +133,7 @@ class Program:
                 self._add(pulls, entry, rows[entry.row], share[entry.group])
         self._add_ceilings(pulls, proof)
         self.slopes = pulls.slopes
-        return self._within_limits(pulls, proof, implied, cost)
-
-    def conflict(self, proof: Place, implied: Place) -> Tuple[Optional[Number], bool]:
-        """What the ceilings are exceeded by at least, each by its price, and whether implied limits are believed."""
-        pulls = Pulls(ZERO, self.webs)
-        self._add_ceilings(pulls, proof)
-        lengths: Dict[str, Number] = {}
-        for cut in proof / "ceilings":
-            label = (cut / "response").text() + (f" in {(cut / 'scenario').text()}" if cut / "scenario" else "")
-            if not cut / "angle_deg":
-                lengths[label] = lengths.get(label, ZERO) + abs((cut / "x").number() + J * (cut / "y").number())
-        for row in proof / "rows":
-            name, _, case = (row / "name").text().partition(" in ")
-            part = self.parts.get(case or None)
-            cap = part.exact.caps.get(name) if part else None
-            if part is None or cap is None:
-                continue
-            factors = part.of_ceiling(name)
-            cap = cap - self.off.besides * total(map(abs, factors))
-            if cap.low < 0:
-                # below what turns against the shaft, or what is off: the more is paid for it the more is proven
-                cap = Number(cap.low, min(cap.high, 0))
-                more = (row / "value").number(least=0) - lengths.get((row / "name").text(), ZERO)
-                more = largest(more, ZERO)
-                pulls.least = pulls.least - more * cap
-                grown = more * self.off.share
-                pulls.spread = [old + grown * abs(factor) for old, factor in zip(pulls.spread, factors)]
-        return self._within_limits(pulls, proof, implied, ZERO)
+        return self.within_limits(pulls, proof, implied, cost)
 
     def _add(self, pulls: Pulls, term: Term, allowed: Number, share: Number) -> None:
         """A term with its multiplier; |y| <= lambda holds by shortening."""
@@ -184,7 +158,7 @@ class Program:
             p = (limit / "x").number() + J * (limit / "y").number()
             if abs(p).high <= 0:
                 continue
-            part = self._part(limit)
+            part = self.part(limit)
             start, factors, cap = part.capped(limit)
             if limit / "angle_deg" and (limit / "response").text() in ALONG:
                 p = p.parts()[0]
@@ -196,8 +170,8 @@ class Program:
                 pulls.least = pulls.least + abs(p) * self.off.besides * total(map(abs, factors))
             pulls.slopes = [slope + factor.conjugate() * p for slope, factor in zip(pulls.slopes, factors)]
 
-    def _within_limits(self, pulls: Pulls, proof: Place, implied: Place, cost: Number) -> Tuple[Optional[Number], bool]:
-        """Less what counterweights take off at most."""
+    def within_limits(self, pulls: Pulls, proof: Place, implied: Place, cost: Number) -> Tuple[Optional[Number], bool]:
+        """What is proven before counterweights, less what these take off at most."""
         machine, least, believed = self.machine, pulls.least, False
         beta = (proof / "budget").number(0.0, least=0) if machine.left is not None else ZERO
         pulled = list(zip(self.webs, machine.together([-slope for slope in pulls.slopes]), pulls.spread))

@@ -3,16 +3,17 @@
 from __future__ import annotations
 
 from math import degrees
-from typing import Any, Dict, List, Optional, Sequence
+from typing import Any, Dict, List, NamedTuple, Optional, Sequence
 
 from verify_bearings import PEAK, rising, sampled, within
 from verify_claims import Claim, Claims, same
-from verify_contact import contact
+from verify_contact import CERTIFIED, contact
 from verify_harmonics import Peak
 from verify_numbers import ONE, NotCovered, Place, Unreadable, real
 from verify_oldham import comparison
 from verify_pin_balance import energy, equilibrium, mechanism
 from verify_pin_peaks import peak
+from verify_pin_play import CLOSE, Play
 from verify_pins import LINE, Pins, Turn, causes
 
 CLAIM = "pin_loads"
@@ -98,11 +99,11 @@ def _carried(turn: Turn, place: Place) -> Claims:
     pins, entries = turn.pins, list(place / "pins")
     if len(entries) != pins.count:
         raise Unreadable((*place.path, "pins"), f"must hold {pins.count} pins")
-    loads, peaks, brackets = [], [], []
+    loads, peaks, brackets, play = [], [], [], _play(turn, place)
     for k, entry in enumerate(entries):
         yield same(CLAIM, entry / "index", k + 1)
         yield within(CLAIM, entry / "phase_deg", pins.phases[k], pins.phases[k], EXACT * 360)
-        loads.append((yield from _load(turn, entry, k)))
+        loads.append((yield from _load(turn, entry, k, play)))
         peaks.append((entry / "peak_N").value)
         brackets.append([end.double() for end in entry / "peak_bracket_N"])
         yield from _halves(turn, entry, k)
@@ -112,11 +113,38 @@ def _carried(turn: Turn, place: Place) -> Claims:
     yield from _largest(place / "peak_bracket_N", brackets)
     yield from _presence(pins.drive > 0, place / "drive_bearing")
     if pins.drive and place / "drive_bearing":
-        loads.append((yield from _load(turn, place / "drive_bearing", pins.count)))
+        loads.append((yield from _load(turn, place / "drive_bearing", pins.count, play)))
     return loads
 
 
-def _load(turn: Turn, entry: Place, k: int) -> Claims:
+class _Peaks(NamedTuple):
+    """Of pins with clearance: their loads, peaks, and by how much loads may be off [N]."""
+
+    play: Play
+    peaks: List[Peak]
+    off: float
+    largest: float
+    has_warning: bool
+
+
+def _play(turn: Turn, place: Place) -> Optional[_Peaks]:
+    """None where there is no clearance, or where loads jump at dead points."""
+    if not turn.pins.loose or turn.pins.dead or len(turn.torque.angles) * turn.pins.count > MANY:
+        return None
+    play = Play(turn.pins, turn.torque)
+    peaks = play.peaks()
+    largest, error = max(peak.low for peak in peaks), (place / "contact" / "load_error_bound_N").double(0.0)
+    codes = [(warning / "code").value for warning in place / "warnings"]
+    return _Peaks(
+        play,
+        peaks,
+        max(PEAK * largest, error) + turn.pins.noise,
+        largest,
+        "peaks_not_certified" in codes,
+    )
+
+
+def _load(turn: Turn, entry: Place, k: int, play: Optional[_Peaks]) -> Claims:
     """Samples and the peak of one pin, or of the bearing; returns the samples."""
     pins, torque, samples, loads = turn.pins, turn.torque, list(entry / "load_N"), []
     yield CLAIM, entry / "load_N", ONE if len(samples) == len(turn.angles) else -ONE, ONE
@@ -135,6 +163,9 @@ def _load(turn: Turn, entry: Place, k: int) -> Claims:
         return loads
     yield from _presence(not pins.dead or pins.formula, entry / "peak_bracket_N")
     largest: Optional[Peak] = None
+    if play is not None:
+        yield from _with_play(entry, k, play)
+        return loads
     if not (pins.loose or (pins.dead and not pins.formula) or len(torque.angles) * pins.count > MANY):
         largest = peak(pins, k, torque)
     if largest is None:
@@ -142,6 +173,36 @@ def _load(turn: Turn, entry: Place, k: int) -> Claims:
     else:
         yield from _peak(turn, entry, k, largest)
     return loads
+
+
+def _with_play(entry: Place, k: int, play: _Peaks) -> Claims:
+    """The largest load of a pin with clearance, its bracket, and where it is."""
+    low, high, _ = play.peaks[k]
+    size, bracket, place = entry / "peak_N", entry / "peak_bracket_N", entry / "peak_angle_deg"
+    # of what is enclosed no closer nothing is told but what a value contradicts
+    is_close, is_low = high - low <= 2 * CLOSE * play.largest, size.double() < low - play.off
+    # one that is not certified is the largest that a search has seen
+    if (is_close and not is_low) or (is_low and not play.has_warning):
+        yield within(CLAIM, size, low, high, play.off)
+    else:
+        yield CLAIM, size, None, ONE
+    angle = place.double()
+    there = abs(play.play.loads(angle)[k]) if 0 <= angle < 360 else -1.0
+    yield _no_less(place, there, size.double() - play.off)
+    if not bracket:
+        return
+    yield rising(CLAIM, bracket)
+    ends = list(bracket)
+    if len(ends) != 2:
+        return
+    upper = ends[1].double()
+    yield within(CLAIM, ends[0], size.double(), size.double(), 0.0)
+    if upper < low - play.off or (is_close and upper <= high + play.off):
+        yield CLAIM, ends[1], real(upper - low + play.off), real(low + play.off)
+    else:
+        # true, and wider than it could be: the answer says so where it is wider than what is certified
+        has_notice = play.has_warning or upper - size.double() <= CERTIFIED * play.largest
+        yield CLAIM, ends[1], None if has_notice else -ONE, ONE
 
 
 def _largest(place: Place, brackets: List[List[float]]) -> Claims:

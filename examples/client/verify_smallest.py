@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Dict, Optional
 
 from verify_bearings import SAMPLE, peak_of
-from verify_cases import CASES, scenarios
+from verify_cases import CASES, Scatter, scenarios
 from verify_claims import Claims, covered, same
 from verify_cuts import Part
 from verify_first import SMALLEST, component, implied_alone
@@ -80,7 +80,7 @@ class SmallestPeaks:
         yield from by_cuts(claim, lowest, bound, implied, proof, mixed=program.mixed)
         value, above = attained.number(), attained.number() - lowest.number()
         yield claim, attained, above + SPECK * abs(value), abs(value)
-        size = largest(*(_at_rest(part, name) for part in program.parts.values()))
+        size = largest(*(_at_rest(part, name) + _scatter(part, name, program.off) for part in program.parts.values()))
         if bound[0] is not None and not bound[1] and not program.mixed:
             # no counterweights come below what is proven
             yield claim, attained, value + SPECK * abs(value) + real(WIDE) * size - bound[0], abs(value)
@@ -124,6 +124,11 @@ def _at_rest(part: Part, name: str) -> Number:
         return largest(*(abs(co) + abs(counter) for co, counter in phasors))
     curve = part.loads.with_weights(name, part.machine.there)
     return real(peak_of(curve, part.goal).high + SAMPLE * part.loads.size_of(name)) * ABOUT_ONE
+
+
+def _scatter(part: Part, name: str, off: Scatter) -> Number:
+    """What unbalances that are off by themselves make of it."""
+    return off.besides * total(map(abs, part.at(name, 0.0, ABOUT_ONE)))
 
 
 def _reachable(part: Part, name: str, implied: Place) -> Optional[Number]:

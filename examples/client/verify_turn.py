@@ -13,6 +13,7 @@ from verify_answer import Fitted, closest, fitted
 from verify_cases import FIELDS as CASES
 from verify_cases import scenarios, without_cases
 from verify_claims import EVIDENCE, Claims, covered, near
+from verify_conflict import conflict
 from verify_costs import costs
 from verify_cuts import FIELDS, SHAFTS
 from verify_first import excess, implied_alone, light, near_the_bound, priced_at, searched, smallest
@@ -22,7 +23,7 @@ from verify_goals import cheaper, values
 from verify_machine import ENTRY_FIELDS, NAMES, NOTHING, Machine
 from verify_misplacement import misplacement
 from verify_multipliers import Program, by_cuts
-from verify_numbers import ONE, SPECK, STEP, Place, largest, real
+from verify_numbers import ONE, SPECK, Place, largest, real
 from verify_program import CEILINGS
 from verify_smallest import SmallestPeaks
 
@@ -126,19 +127,7 @@ def unreachable(request: Place, answer: Place, budget: Place, verdict: Place) ->
     if not names or len({*names}) < len(names):
         yield "conflict", verdict / "conflict", -ONE, ONE
     program = Program(request, machine, Place(None))
-    least, believed = program.conflict(proofs / "conflict", implied) if proofs / "conflict" else (None, False)
-    if believed:
-        yield "reach", implied, None, ONE
-    # what a comparison of all choices proves has no multipliers
-    place = proofs / "conflict" if proofs / "conflict" else verdict / "conflict"
-    room = None if least is None else least - STEP
-    if room is not None and room.high < 0 and (program.scattered or program.mixed or None not in program.parts):
-        # how the cases share what is exceeded is not told
-        room = None
-    yield "conflict", place, room, ONE
-    if least is not None:
-        yield EVIDENCE, proofs / "conflict", None, ONE
-        yield EVIDENCE, implied, None, ONE
+    yield from conflict(program, verdict)
     yield from closest(request, machine, verdict / "closest")
     first = program.first
     of_cases = len(program.parts) > 1 or bool(program.scattered or program.mixed or first.all or first.geared)

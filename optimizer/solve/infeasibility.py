@@ -20,8 +20,8 @@ from optimizer.program.limits import Limits
 from optimizer.program.optimum import optimum
 from optimizer.program.rows import Row, weighted_peak
 from optimizer.program.verdict import INFEASIBLE
+from optimizer.solve.conflict import TAKES_PART, ProvenConflict, proven_conflict
 from optimizer.solve.cut_plates import cut_plates, implied_masses
-from optimizer.solve.proof import excess_multipliers
 from optimizer.solve.solution import Infeasible, multipliers_of
 from schemas.answer.infeasibility import Closest, Infeasibility, SmallestPeak
 from schemas.answer.limits import CeilingField
@@ -31,8 +31,6 @@ from schemas.machine.machine import Machine
 
 #: relative gap of the smallest peaks by themselves
 _ALONE = 1e-7
-#: share of the largest multiplier of a conflict from which on a ceiling takes part in it
-_TAKES_PART = 1e-6
 #: so many responses of a conflict are looked at by themselves
 _MOST_AT_FAULT = 6
 
@@ -73,8 +71,7 @@ def report(
     together: Sequence[StatedCeiling],
     least: Mapping[str, Smallest],
     implied: ImpliedMasses,
-    conflict: BoundMultipliers | None,
-    scenarios: tuple[str, ...] = (),
+    conflict: ProvenConflict | None,
 ) -> Infeasibility:
     """Why there are no counterweights: which ceilings conflict, and the smallest peaks within the limits.
 
@@ -107,7 +104,7 @@ def report(
         ),
         implied_max_mass_kg=implied.together,
         smallest_implied_max_mass_kg=implied.alone,
-        scenarios=scenarios,
+        scenarios=() if conflict is None else conflict.scenarios,
         closest=Closest(
             counterweights=placement.counterweights,
             balance_shafts=placement.balance_shafts,
@@ -115,7 +112,9 @@ def report(
             responses=response_peaks(scene, left),
         ),
         multipliers=InfeasibilityMultipliers(
-            conflict=conflict, **smallest_proofs({name: entry.multipliers for name, entry in least.items()})
+            conflict=None if conflict is None else conflict.multipliers,
+            scenarios=() if conflict is None else conflict.alone,
+            **smallest_proofs({name: entry.multipliers for name, entry in least.items()}),
         ),
     )
 
@@ -167,13 +166,9 @@ def unreachable(
     # of a cone program a small multiplier may hold a large ceiling
     few = goals.program.finite is None
     together = [ceiling for ceiling in (*exact, *of_turn) if few and ceiling.response in at_fault] or exact
-    conflict, scenarios = None, tuple[str, ...]()
-    if failure is not None:
-        scales, proof = goals.program.excess_scales(failure.proof.cuts), failure.proof
-        conflict = excess_multipliers(proof.with_pieces, proof.multipliers, scales, goals.speeds)
-        scenarios = _scenarios(goals.program, failure)
+    conflict = None if failure is None else proven_conflict(goals.program, failure, goals.speeds)
     implied = _implied(task.space.machine, within, {name: peak.limits for name, peak in least.items()})
-    infeasibility = report(scene, placement, (*exact, *of_turn), together, peaks, implied, conflict, scenarios)
+    infeasibility = report(scene, placement, (*exact, *of_turn), together, peaks, implied, conflict)
     spent = (0.0 if failure is None else failure.certify_s) + sum(peak.certify_s for peak in least.values())
     return Infeasible("infeasible", INFEASIBLE, infeasibility, spent, METHOD if failure is None else failure.method)
 
@@ -200,31 +195,13 @@ def _alone(task: Task, goals: Goals, omega_squared: float) -> dict[str, tuple[Ro
     return {name: tuple(rows_of) for name, rows_of in rows.items()}
 
 
-def _scenarios(program: Problem, failure: Conflict) -> tuple[str, ...]:
-    """Scenarios whose ceilings are out of reach by themselves, or those whose ceilings conflict with one another."""
-    statement, row = failure.proof.statement, np.maximum(failure.proof.multipliers.row, 0.0)
-    leant = row[statement.row] > _TAKES_PART * np.sum(row)
-    terms = zip(statement.names.terms, leant.tolist(), strict=True)
-    names = tuple(dict.fromkeys(term.scenario for term, counts in terms if counts and term.scenario is not None))
-    if len(names) < 2:
-        return names
-    return tuple(name for name in names if isinstance(_under(program, name), Conflict)) or names
-
-
-def _under(program: Problem, scenario: str) -> CertifiedOptimum | Conflict:
-    """The program under the ceilings of one scenario alone, as far as whether they can be kept."""
-    ceilings = tuple(ceiling for ceiling in program.ceilings if ceiling[0].scenario == scenario)
-    limited = tuple(pair for pair in program.limited if program.quantities[pair[0]].scenario == scenario)
-    return optimum(program.changed(goals=program.goals[-1:], ceilings=ceilings, limited=limited), 1.0, False)
-
-
 def _at_fault(failure: Conflict) -> list[str]:
     """Responses whose ceilings conflict, those first that the proof leans on most."""
     statement, row = failure.proof.statement, np.maximum(failure.proof.multipliers.row, 0.0)
     share: dict[str, float] = {}
     for term, owner in zip(statement.names.terms, statement.row.tolist(), strict=True):
         share[term.response] = share.get(term.response, 0.0) + float(row[owner] / np.sum(row))
-    leant = [name for name, part in share.items() if part > _TAKES_PART]
+    leant = [name for name, part in share.items() if part > TAKES_PART]
     return sorted(leant, key=lambda name: -share[name])[:_MOST_AT_FAULT]
 
 

@@ -171,6 +171,16 @@ class EndMultipliers(Model):
     )
 
 
+class ScenarioConflict(Model):
+    """Multipliers that prove that the ceilings of one scenario conflict by themselves."""
+
+    scenario: Name = Field(description="the scenario", examples=["heavy"])
+    conflict: BoundMultipliers = Field(
+        description="with them its ceilings are exceeded by any counterweights within the limits",
+        examples=[{"rows": [{"name": "force", "value": 0.01}]}],
+    )
+
+
 class InfeasibilityMultipliers(Model):
     """Multipliers that prove what an infeasible answer says."""
 
@@ -184,4 +194,10 @@ class InfeasibilityMultipliers(Model):
     )
     smallest_moment: BoundMultipliers = Field(
         description="of smallest_moment_lower_bound_Nm", examples=[{"rows": [{"name": "moment", "value": 1.0}]}]
+    )
+    scenarios: tuple[ScenarioConflict, ...] = Field(
+        (),
+        description="of each of `scenarios`, where the ceilings of several conflict by themselves; else empty, and"
+        " `conflict` prices no ceilings but theirs",
+        examples=[[]],
     )

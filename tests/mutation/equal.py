@@ -248,7 +248,7 @@ _STEPS = (
     "verify_multipliers.py bound: value.low > 0",
     "verify_multipliers.py _add: size.low > 0",
     "verify_multipliers.py _add_ceilings: abs(p).high <= 0",
-    "verify_multipliers.py _within_limits: gain.high <= 0",
+    "verify_multipliers.py within_limits: gain.high <= 0",
     "verify_orders.py floor: abs(plane - machine.plane).low > 0",
     "verify_program.py _size: size.low > 0",
     "verify_program.py _size: arm.low > 0",
