@@ -20,6 +20,7 @@ os.environ["JE_ARROW_MALLOC_CONF"] = "background_thread:false"
 
 from optimizer.warm_up import warm_up
 from service.workers.process import preload
+from tests.economy import collect_seldom, collect_young, make_characters
 from tests.fork_server import fork_fork_servers
 from tests.mould import DOCUMENTS
 from tests.night import ALL
@@ -56,6 +57,8 @@ sys.modules["rfc3987_syntax"] = None  # type: ignore[assignment]
 #: tests for which kernels are loaded and models built before they are handed out to several processes
 _MANY = 1000
 
+collect_seldom()
+
 # what processes that tests start are forked from, whichever of them is the first
 preload()
 fork_fork_servers()
@@ -71,6 +74,13 @@ def server_log_reaches_the_root() -> Iterator[None]:
     for name in ("uvicorn", "uvicorn.error"):
         logger = logging.getLogger(name)
         assert (logger.propagate, logger.handlers) == (True, []), f"{name} keeps what this file did to it: log_config"
+
+
+@pytest.fixture(scope="module", autouse=True)
+def cycles_of_the_file() -> Iterator[None]:
+    """The file that leaves something open in a cycle fails, not the one in whose time it is looked for."""
+    yield
+    collect_young()
 
 
 @pytest.hookimpl(wrapper=True)
@@ -91,8 +101,9 @@ def pytest_collection_finish(session: pytest.Session) -> None:
         importlib.import_module("tests.documents").keep_documents()
     option = session.config.getoption
     if option("numprocesses") and len(session.items) > _MANY and not option("collectonly"):
-        # as else each process would, with its first answer and its first document
+        # as else each process would, with its first answer, its first text and its first document
         warm_up()
+        make_characters()
         if served:
             documents = importlib.import_module("tests.documents")
             documents.make_documents()
