@@ -17,7 +17,7 @@ class Guides:
     weight: Real  # N across the axis; 0 where the axis is upright, so that there is no lower guide
     towards: Real  # 1 where a positive side force presses on the lower guide, -1 where it lifts
 
-    def force(self, side: Real) -> Real:
+    def load(self, side: Real) -> Real:
         """Forces of the crossheads on their guides with their weight (..., rows, T) N, positive towards the lower one.
 
         In rod tension the rod draws the crosshead to the side of the crank pin: the side force N points along
@@ -29,8 +29,8 @@ class Guides:
         ----------
         side : (..., rows, T) N, positive in rod tension.
         """
-        force: Real = self.towards[..., None] * side + self.weight[..., None]
-        return force
+        load: Real = self.towards[..., None] * side + self.weight[..., None]
+        return load
 
     def lifted_share(self, side: TurnCurves) -> Real:
         """Share of the cycle over which crossheads are off their lower guides, (..., rows); 0 of upright rows.

@@ -185,7 +185,7 @@ def _guides(scene: Prepared, machine: ReciprocatingMachine) -> list[dict[str, An
         return None
     high, low = row_peaks(scene, "side")
     of_rows = guides_of(scene, machine)
-    force, shares = of_rows.force(np.array([high.lower, np.negative(low.lower)]).T), lifted_shares(scene, of_rows)
+    loads, shares = of_rows.load(np.array([high.lower, np.negative(low.lower)]).T), lifted_shares(scene, of_rows)
     return [
         {
             "weight_N": pull,
@@ -194,7 +194,7 @@ def _guides(scene: Prepared, machine: ReciprocatingMachine) -> list[dict[str, An
             "lifts": None if pull == 0.0 else min(ends) < 0.0,
             "lifted_share": share,
         }
-        for pull, ends, share in zip(of_rows.weight.tolist(), force.tolist(), shares.tolist(), strict=True)
+        for pull, ends, share in zip(of_rows.weight.tolist(), loads.tolist(), shares.tolist(), strict=True)
     ]
 
 

@@ -186,7 +186,7 @@ def _guided(design: Design) -> Any:
     rows = design.layout.reciprocating
     guides = weight.guides(rows.mass, rows.axis, design.layout.sense, design.axis)
     along = weight.along_axis(rows.mass, rows.axis, design.axis)
-    return guides.weight, guides.force(design.over_turn), along
+    return guides.weight, guides.load(design.over_turn), along
 
 
 def _turned(design: Design) -> Any:

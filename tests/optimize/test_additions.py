@@ -78,7 +78,6 @@ NAMED_IN = {
     "outputs/orders.py": "columns of sweeps",
     "outputs/details/first_order.py": "columns of sweeps",
     "mechanics/gas.py": "of the gas",
-    "outputs/details/loads.py": "of the gas",
 }
 
 

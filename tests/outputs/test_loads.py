@@ -119,7 +119,7 @@ def test_guides_by_hand_analytic() -> None:
     axis, down = np.array([1.0 + 0j]), np.asarray(-1j)
     horizontal = guides(np.array([10.0]), axis, np.asarray(1.0), down)
     np.testing.assert_allclose(horizontal.weight, [98.0665])
-    np.testing.assert_allclose(horizontal.force(side), [[148.0665, 98.0665, -101.9335]])
+    np.testing.assert_allclose(horizontal.load(side), [[148.0665, 98.0665, -101.9335]])
     # an upright row has no lower guide
     assert guides(np.array([10.0]), np.array([1j]), np.asarray(1.0), down).weight == 0.0
 

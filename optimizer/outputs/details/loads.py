@@ -79,11 +79,11 @@ def _guides(scene: Prepared, _fitted: Complex) -> dict[str, Real]:
     if machine.gravity_deg is None:
         return {}
     ends, guides = of_rows(scene, "side"), guides_of(scene, machine)
-    force = guides.force(np.stack([ends.high.lower, -ends.low.lower], axis=-1))
+    load = guides.load(np.stack([ends.high.lower, -ends.low.lower], axis=-1))
     return {
         **by_part(scene, "guide_weight_N", "rows", guides.weight),
-        **by_part(scene, "guide_largest_N", "rows", np.max(force, axis=-1)),
-        **by_part(scene, "guide_smallest_N", "rows", np.min(force, axis=-1)),
+        **by_part(scene, "guide_largest_N", "rows", np.max(load, axis=-1)),
+        **by_part(scene, "guide_smallest_N", "rows", np.min(load, axis=-1)),
     }
 
 
