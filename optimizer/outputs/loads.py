@@ -22,7 +22,10 @@ from optimizer.outputs.output import Columns, Output
 from optimizer.outputs.peaks import (
     Search,
     largest_of_rows,
+    magnitudes_search,
+    of_rows,
     of_torque,
+    row_largest,
     row_magnitudes,
     row_peaks,
     rows_search,
@@ -36,9 +39,7 @@ from schemas.machine.reciprocating import ReciprocatingMachine
 from schemas.machine.throws import row_cylinders
 
 #: forces whose largest magnitudes are loads of every row
-_READINGS: tuple[Reading, ...] = ("inertia", "piston", "rod", "rod_at_rest")
-#: smallest and largest value
-Ends = tuple[float, float]
+_READINGS: tuple[Reading, ...] = ("piston", "rod", "rod_at_rest")
 
 
 def _figure(scene: Prepared, fitted: Complex | None) -> Loads:
@@ -82,8 +83,12 @@ def _inertia(scene: Prepared, machine: ReciprocatingMachine) -> float | None:
 
 
 def _rows(scene: Prepared, machine: ReciprocatingMachine) -> Iterator[dict[str, Any]]:
-    masses, gas = scene.layout.reciprocating.mass.tolist(), _gas(scene)
-    inertia, piston, rod, stopped = ([least for least, _ in row_magnitudes(scene, reading)] for reading in _READINGS)
+    masses, gas = (
+        scene.layout.reciprocating.mass.tolist(),
+        list(zip(*(ends.tolist() for ends in gas_range(scene)), strict=True)),
+    )
+    inertia = row_largest(scene, "inertia")
+    piston, rod, stopped = ([least for least, _ in row_magnitudes(scene, reading)] for reading in _READINGS)
     at_centres = at_dead_centres(scene).tolist()
     of_guides, frames, covers = _guides(scene, machine), [_frame(*ends) for ends in gas], _covers(scene)
     rows = [row for throw in machine.throws for row in throw.rows]
@@ -111,12 +116,18 @@ def _rows(scene: Prepared, machine: ReciprocatingMachine) -> Iterator[dict[str, 
         }
 
 
-def _gas(scene: Prepared) -> list[Ends]:
-    """Smallest and largest gas force on the pistons of every row."""
-    if "gas" not in scene.results:
-        return [(0.0, 0.0)] * len(scene.row_labels)
-    high, low = row_peaks(scene, "gas")
-    return [(0.0 - least, largest) for least, largest in zip(low.lower, high.lower, strict=True)]
+def gas_range(scene: Prepared) -> tuple[Real, Real]:
+    """Smallest and largest gas forces of the rows over the cycle, (..., rows) N.
+
+    From one dead centre to the other the pressures of one side rise or stay, those of the other fall or stay. So a row
+    without a table of pressures has both of them there.
+    """
+    cycle: GasCycle | None = scene.results.get("gas")
+    if cycle is None or not cycle.traces:
+        ends = at_dead_centres(scene)
+        return np.minimum.reduce(ends, axis=-1), np.maximum.reduce(ends, axis=-1)
+    peaks = of_rows(scene, "gas")
+    return 0.0 - peaks.low.lower, peaks.high.lower
 
 
 def at_dead_centres(scene: Prepared) -> Real:
@@ -261,7 +272,8 @@ def whole_weight(scene: Prepared, machine: ReciprocatingMachine, fitted: Complex
 
 def _searches(scene: Prepared, _fitted: Complex | None) -> Iterator[Search]:
     yield from (rows_search(scene, reading) for reading in _READINGS)
-    if "gas" in scene.results:
+    yield magnitudes_search(scene, "inertia")
+    if "gas" in scene.results and scene.results["gas"].traces:
         yield rows_search(scene, "gas")
     if reciprocating(scene.machine).gravity_deg is not None:
         yield rows_search(scene, "side")

@@ -102,6 +102,14 @@ def rows_search(scene: Prepared, reading: Reading) -> Search:
     return Search(_rows_name(reading), curves, *_extrema(curves.weights.shape[0] * curves.weights.shape[1]))
 
 
+def magnitudes_search(scene: Prepared, reading: Reading) -> Search:
+    """Largest magnitudes of a force of every row likewise."""
+    whole: WholeTurn = scene.results["whole_turn"]
+    curves = whole.of_rows(reading)
+    count = curves.weights.shape[0] * curves.weights.shape[1]
+    return Search(_magnitudes_name(reading), curves, _numbers(count), unsigned(count), unsigned(count))
+
+
 @lru_cache(maxsize=64)
 def unsigned(count: int) -> Real:
     """Signs of so many curves of which the magnitude counts; nobody writes to them."""
@@ -127,16 +135,30 @@ def _rows_name(reading: Reading) -> Name:
     return "rows", reading
 
 
+def _magnitudes_name(reading: Reading) -> Name:
+    return "magnitudes of rows", reading
+
+
 def of_rows(scene: Prepared, reading: Reading) -> Extremes:
     """Of a force of every row, (..., rows)."""
-    name = _rows_name(reading)
     whole: WholeTurn = scene.results["whole_turn"]
-    if name in scene.peaks:
-        peaks = scene.peaks.brackets(name)
-    else:
-        _, curves, number, offset, sign, *_ = rows_search(scene, reading)
-        peaks = curves.pieces.peaks(offset, TOLERANCE, number, None, sign, NEARLY_NOTHING)
+    peaks = _brackets(scene, rows_search(scene, reading))
     return Extremes(*(_reshaped(scene, _of_every_row(whole.kinds, half)) for half in _halves(peaks)))
+
+
+def of_row_magnitudes(scene: Prepared, reading: Reading) -> Bracket:
+    """Largest magnitude of a force of every row, (..., rows)."""
+    whole: WholeTurn = scene.results["whole_turn"]
+    peaks = _brackets(scene, magnitudes_search(scene, reading))
+    return _reshaped(scene, _of_every_row(whole.kinds, peaks))
+
+
+def _brackets(scene: Prepared, of_rows: Search) -> Bracket:
+    """What was searched together with all else, or is searched now."""
+    name, curves, number, offset, sign, *_ = of_rows
+    if name in scene.peaks:
+        return scene.peaks.brackets(name)
+    return curves.pieces.peaks(offset, TOLERANCE, number, None, sign, NEARLY_NOTHING)
 
 
 def _of_every_row(kinds: RowKinds | None, peaks: Bracket) -> Bracket:
@@ -158,6 +180,13 @@ def row_magnitudes(scene: Prepared, reading: Reading) -> list[tuple[float, float
     """Brackets of the largest magnitudes of a force of every row of one machine."""
     high, low = row_peaks(scene, reading)
     return list(zip(map(max, high.lower, low.lower), map(max, high.upper, low.upper), strict=True))
+
+
+def row_largest(scene: Prepared, reading: Reading) -> list[float]:
+    """The same of a force of which nothing else is shown, at least."""
+    largest = peak_list(scene, _magnitudes_name(reading), lambda: magnitudes_search(scene, reading)).lower
+    kinds = scene.results["whole_turn"].kinds
+    return largest if kinds is None else [largest[kind] for kind in kinds.kind.tolist()]
 
 
 def largest_of_rows(scene: Prepared, reading: Reading) -> Bracket:

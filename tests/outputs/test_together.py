@@ -70,8 +70,8 @@ def test_outputs_without_floors_need_one_search(monkeypatch: pytest.MonkeyPatch)
     monkeypatch.setattr(piecewise_cubics, "_brackets", counted)
     request = AnalyzeRequest.model_validate({"machine": _example("2d12"), "outputs": _SHOWN[:-1]})
     fields(prepare(request, request.outputs), np.zeros(len(request.machine.webs), complex), request.outputs)
-    # two rows in seven readings, the torque and the roll
-    assert searches == [2 * 7 + 2]
+    # two rows in five readings and their inertia, the torque and the roll
+    assert searches == [2 * 6 + 2]
 
 
 def test_nothing_is_searched_where_no_output_shows_a_peak() -> None:

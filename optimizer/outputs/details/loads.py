@@ -11,6 +11,7 @@ from optimizer.numerics.arrays import Complex, Real
 from optimizer.outputs.details.rows import by_part, of_chambers
 from optimizer.outputs.loads import (
     at_dead_centres,
+    gas_range,
     guides_of,
     lifted_shares,
     on_bearings,
@@ -18,41 +19,31 @@ from optimizer.outputs.loads import (
     whole_weight,
 )
 from optimizer.outputs.output import Columns
-from optimizer.outputs.peaks import of_rows
+from optimizer.outputs.peaks import of_row_magnitudes, of_rows
 from schemas.machine.reciprocating import ReciprocatingMachine
 
 
-def _over_the_turn(scene: Prepared, _fitted: Complex) -> dict[str, Real]:
-    """Peaks of every row."""
-    piston, rod, stopped = (of_rows(scene, reading).magnitude for reading in ("piston", "rod", "rod_at_rest"))
+def _pins(scene: Prepared, _fitted: Complex) -> dict[str, Real]:
+    rod, stopped = (of_row_magnitudes(scene, reading).lower for reading in ("rod", "rod_at_rest"))
     return {
-        **by_part(scene, "largest_piston_force_N", "rows", piston.lower),
-        **by_part(scene, "crosshead_pin_N", "rows", rod.lower),
-        **by_part(scene, "stop_over_the_turn_N", "rows", stopped.lower),
+        **by_part(scene, "crosshead_pin_N", "rows", rod),
+        **by_part(scene, "stop_over_the_turn_N", "rows", stopped),
     }
 
 
-def _gas(scene: Prepared) -> tuple[Real, Real]:
-    """Smallest and largest gas force of every row, (n, rows) N."""
-    if "gas" not in scene.results:
-        nothing = np.zeros(scene.layout.reciprocating.mass.shape)
-        return nothing, nothing
-    ends = of_rows(scene, "gas")
-    return 0.0 - ends.low.lower, ends.high.lower
-
-
 def _rods(scene: Prepared, _fitted: Complex) -> dict[str, Real]:
-    gas = np.maximum(*np.abs(_gas(scene)))
-    inertia, piston = (of_rows(scene, reading).magnitude.lower for reading in ("inertia", "piston"))
+    gas = np.maximum(*np.abs(gas_range(scene)))
+    inertia, piston = (of_row_magnitudes(scene, reading).lower for reading in ("inertia", "piston"))
     return {
         **by_part(scene, "largest_gas_N", "rows", gas),
         **by_part(scene, "largest_inertia_N", "rows", inertia),
+        **by_part(scene, "largest_piston_force_N", "rows", piston),
         **by_part(scene, "piston_rod_N", "rows", np.maximum(np.maximum(gas, inertia), piston)),
     }
 
 
 def _frames(scene: Prepared, _fitted: Complex) -> dict[str, Real]:
-    smallest, largest = _gas(scene)
+    smallest, largest = gas_range(scene)
     low, high = 0.0 - largest, 0.0 - smallest
     return {
         **by_part(scene, "frame_tension_N", "rows", np.maximum(high, 0.0)),
@@ -140,22 +131,21 @@ def _machine(scene: Prepared) -> ReciprocatingMachine:
 
 LOADS = (
     Columns(
-        _over_the_turn,
+        _pins,
         needs=("whole_turn",),
-        keys=("largest_piston_force_N.", "crosshead_pin_N.", "stop_over_the_turn_N."),
-        readings=("piston", "rod", "rod_at_rest"),
+        keys=("crosshead_pin_N.", "stop_over_the_turn_N."),
+        readings=("rod", "rod_at_rest"),
     ),
     Columns(
         _rods,
         needs=("gas", "whole_turn"),
-        keys=("largest_gas_N.", "largest_inertia_N.", "piston_rod_N."),
-        readings=("gas", "inertia", "piston"),
+        keys=("largest_gas_N.", "largest_inertia_N.", "largest_piston_force_N.", "piston_rod_N."),
+        readings=("inertia", "piston"),
     ),
     Columns(
         _frames,
         needs=("gas", "whole_turn"),
         keys=("frame_tension_N.", "frame_compression_N.", "frame_mean_N.", "frame_amplitude_N."),
-        readings=("gas",),
     ),
     Columns(_covers, needs=("gas",), keys=("cover_largest_N.", "cover_smallest_N.")),
     Columns(
