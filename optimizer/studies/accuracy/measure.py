@@ -21,12 +21,12 @@ from optimizer.outputs.requirements import effects_of_objective, missing
 from optimizer.program.ceilings import CEILING_TOLERANCE
 from optimizer.program.certificate import Multipliers, ceiling_allowance
 from optimizer.program.cuts.optimum import CertifiedOptimum, Conflict
-from optimizer.program.cuts.proof import Proof
 from optimizer.program.methods.implied_bounds import within_reach
 from optimizer.program.methods.optima import optima
 from optimizer.program.statement import Statement
 from optimizer.studies.accuracy.choices import at_rest, choices_ladder
 from optimizer.studies.accuracy.effects import effects_ladder
+from optimizer.studies.accuracy.goals_before import goal_errors, goals_before, level_prices
 from optimizer.studies.accuracy.judge import Judge, JudgeOfNorms, judge_of
 from optimizer.studies.accuracy.ladder import (
     LADDER_S,
@@ -51,8 +51,6 @@ from schemas.request.accuracy import (
     AccuracyRequest,
     AccuracyRow,
     Environment,
-    GoalBefore,
-    GoalError,
     ProgramSize,
     Reference,
     Status,
@@ -166,7 +164,7 @@ def _fields_beside(
     result, proof, judge = steps.result(optimum), optimum.proof, program.judge
     u = result.unbalance
     best = Best(u, judge.objective(u), result.prove(), judge.excess(u), proof.statement, proof.multipliers)
-    best = best._replace(level_prices=_level_prices(program, proof))
+    best = best._replace(level_prices=level_prices(program, proof))
     # the rows of several goals begin with the levels that this run has found
     several = bool(program.earlier)
     earlier = None if several else FirstRun("service", f"relative gap {SHARPEST:.0e}", result, elapsed_s)
@@ -216,16 +214,6 @@ class Best(NamedTuple):
     statement: Statement  # of the proof
     multipliers: Multipliers
     level_prices: float = 0.0  # what an excess over all levels of the goals before gains, for a relative one of 1
-
-
-def _level_prices(program: LadderProgram, proof: Proof) -> float:
-    """What an excess over the levels of the goals before the last costs, by the multipliers of a proof."""
-    problem = program.problem
-    if problem is None or not program.earlier or proof.scale is None:
-        return 0.0
-    first = np.searchsorted(problem.case_of, np.arange(problem.goal_of_case.size))
-    earlier = problem.goal_of_case < len(program.earlier)
-    return float(np.sum((proof.scale[first] * problem.units[problem.goal_of_case])[earlier]))
 
 
 def _best(statement: Statement) -> Best | None:
@@ -286,7 +274,7 @@ def _judged(
     bound = _proven(task.judge, best, bounds, objective, excess)
     if np.isnan(bound):
         return None, ()
-    reference = _reference(objective, bound, rest, square).model_copy(update={"goals": _goals_before(task, square)})
+    reference = _reference(objective, bound, rest, square).model_copy(update={"goals": goals_before(task, square)})
     figures = [_figures(trial, bound, rest, bool(task.judge.ceilings)) for trial in trials]
     points = [
         # a batch answers no single request in the time of one of its programs
@@ -300,35 +288,6 @@ def _judged(
     ]
     fastest = frontier(points, reference.resolution)
     return reference, tuple(_row(task, *arguments) for arguments in zip(trials, figures, fastest, strict=True))
-
-
-def _goals_before(task: LadderProgram, square: float) -> tuple[GoalBefore, ...]:
-    """The goals before the last, with what is proven of them."""
-    if task.problem is None:
-        return ()
-    rest = task.problem.at_rest.goals.tolist()
-    return tuple(
-        GoalBefore(
-            goal=goal.goal,
-            value=goal.value * square,
-            # above what it comes to by no more than rounding
-            lower_bound=min(goal.lower_bound, goal.value) * square,
-            limit=goal.most * square,
-            without_counterweights=still * square,
-        )
-        for goal, still in zip(task.earlier, rest, strict=False)
-    )
-
-
-def _goal_errors(task: LadderProgram, trial: Trial) -> tuple[GoalError, ...]:
-    """How far the worst run of a method is off in the goals before the last."""
-    if task.problem is None or trial.skipped is not None:
-        return ()
-    figures = zip(task.earlier, trial.worst.goals, task.problem.units.tolist(), strict=False)
-    return tuple(
-        GoalError(goal=goal.goal, relative_error=(value - min(goal.lower_bound, goal.value)) / unit)
-        for goal, value, unit in figures
-    )
 
 
 class _MethodFigures(NamedTuple):
@@ -370,7 +329,7 @@ def _row(task: LadderProgram, trial: Trial, figures: _MethodFigures | None, on_f
         on_frontier=on_frontier,
         runs=len(trial.times_s) if answered else 0,
         skipped=trial.skipped,
-        goals=_goal_errors(task, trial),
+        goals=goal_errors(task, trial),
         **(_NOTHING if figures is None else figures._asdict()),
     )
 
