@@ -10,6 +10,8 @@ from schemas.base.quantities import Count, Kilograms, Milliseconds
 from schemas.base.rules import Rule
 from schemas.request.requests import OptimizeRequest
 
+GoalName = Literal["external", "bearings", "bending"]
+
 
 class AccuracyRequest(OptimizeRequest):
     """Measure what accuracy costs on a machine. `outputs` and `angles` play no part.
@@ -31,8 +33,20 @@ class AccuracyRequest(OptimizeRequest):
     def rules(self) -> Iterator[Rule]:
         yield from super().rules()
         yield from self.allowance_rules("the ladder has a row for every way to one choice, and none for cheaper ones")
-        several = bool(self.objective.priorities)
-        yield Rule(several, ("objective", "priorities"), "the ladder is of one goal: remove the order of several")
+        several = self.has_production_limits and bool(self.objective.priorities)
+        message = "the ladder of production limits is of one goal: remove the order of several"
+        yield Rule(several, ("objective", "priorities"), message)
+
+
+class GoalError(Model):
+    """How far counterweights are off in a goal before the last."""
+
+    goal: GoalName = Field(description="the goal", examples=["external"])
+    relative_error: float = Field(
+        description="what it comes to, recomputed, minus its best certified lower bound, over what it is without"
+        " counterweights; up to its allowance no fault",
+        examples=[0.01],
+    )
 
 
 class AccuracyRow(Model):
@@ -63,7 +77,7 @@ class AccuracyRow(Model):
     relative_error: float | None = Field(
         description="objective of the counterweights, recomputed, minus the best certified lower bound, over the "
         "objective without counterweights; the largest over the positions of the angle grid or polygon. Below 0 "
-        "only where ceilings are broken",
+        "only where ceilings or limits of earlier goals are broken",
         examples=[1.2e-3],
     )
     as_drawn_error: float | None = Field(
@@ -80,9 +94,12 @@ class AccuracyRow(Model):
         examples=[-3.8e-3],
     )
     excess: float | None = Field(
-        description="largest excess over a ceiling relative to its size; above 1e-9 the ceilings are broken and "
-        "the row is no candidate for the frontier; null without ceilings",
+        description="largest excess over a ceiling relative to its size, or over the limit of a goal before the last; "
+        "above 1e-9 they are broken and the row is no candidate for the frontier; null where there are none",
         examples=[None],
+    )
+    goals: tuple[GoalError, ...] = Field(
+        (), description="the goals before the last, in their order; empty where there is one goal", examples=[[]]
     )
     programs: int = Field(
         1, description="programs that one run solves at once: times are for one of them", examples=[1]
@@ -193,8 +210,21 @@ class PeakRow(Model):
     runs: int = Field(description="timed runs behind the median", examples=[5])
 
 
+class GoalBefore(Model):
+    """A goal before the last, whose limit all methods are given."""
+
+    goal: GoalName = Field(description="the goal", examples=["external"])
+    value: float = Field(description="smallest found, under the limits of the goals before it", examples=[30345.0])
+    lower_bound: float = Field(description="certified: under these limits nothing is smaller", examples=[30344.97])
+    limit: float = Field(description="what the goals after it have to keep", examples=[30405.7])
+    without_counterweights: float = Field(description="what its errors are relative to", examples=[58740.5])
+
+
 class Reference(Model):
-    """What errors are measured from; with tolerances or scenarios all of it is of the worst case."""
+    """What errors are measured from; with tolerances or scenarios all of it is of the worst case.
+
+    Of several goals the objective is the last.
+    """
 
     objective: float = Field(description="smallest objective found", examples=[41250.2])
     lower_bound: float = Field(
@@ -207,6 +237,9 @@ class Reference(Model):
         description="the optimum of any masses at any angles, which counterweights as a workshop makes them cannot"
         " reach; null where they are any",
         examples=[None],
+    )
+    goals: tuple[GoalBefore, ...] = Field(
+        (), description="the goals before the last, in their order; empty where there is one goal", examples=[[]]
     )
     resolution: float = Field(
         description="smallest objective found minus bound, relative, and at least the rounding of objectives: errors "

@@ -98,6 +98,19 @@ def shafts(draw: Draw, body: Body) -> Body:
     return axis_ceilings(draw, body)
 
 
+def plates_on_shafts(draw: Draw, body: Body) -> Body:
+    """Plates on balance shafts and beside them."""
+    body = shafts(draw, body)
+    for shaft in (body["machine"], *body["machine"]["balance_shafts"]):
+        for place in shaft["webs"]:
+            if draw.rng.random() < 0.6:
+                place["envelope"] = _plate(draw)
+                for name in ("counterweight_radius_m", "max_mass_kg", "max_centrifugal_force_N"):
+                    place.pop(name, None)
+    body["accuracy"]["time_limit_s"] = draw.choice(*_TIME_LIMITS)
+    return body
+
+
 def axis_ceilings(draw: Draw, body: Body) -> Body:
     """Ceilings of force and moment along x and y."""
     for name in ("force_ceiling_x_N", "force_ceiling_y_N", "moment_ceiling_x_Nm", "moment_ceiling_y_Nm"):
@@ -210,6 +223,7 @@ FEATURES: Mapping[str, tuple[Callable[[Draw, Body], Body], bool]] = {
     "catalogue": (catalogue, True),
     "plates": (plates, True),
     "balance shafts": (shafts, False),
+    "plates on shafts": (plates_on_shafts, False),
     "axis ceilings": (axis_ceilings, True),
     "scenarios": (scenarios, True),
     "tolerances": (tolerances, True),

@@ -131,6 +131,12 @@ def _balance_shafts(subject: Subject, ratio: int, **fields: object) -> None:
     _shaft(subject, balance_shafts=[shaft])
 
 
+def _fitted(subject: Subject) -> None:
+    """What is built beside the optimum: on the first web, and on that of a balance shaft."""
+    names = [subject.first["name"], *(shaft["webs"][0]["name"] for shaft in subject.machine.get("balance_shafts", ()))]
+    subject.body["fitted"] = [{"web": name, "mass_kg": 0.2, "angle_deg": 175.0} for name in names]
+
+
 def _budget(subject: Subject, share: float) -> None:
     largest = sum(web.get("max_mass_kg") or 1.0 for web in subject.webs)
     subject.machine["max_total_mass_kg"] = share * largest
@@ -277,6 +283,7 @@ FEATURES: Mapping[str, Feature] = {
     "thin sector": partial(_web, places=_FIRST, fields={"sector": {"centre_deg": 180.0, "half_angle_deg": 1e-3}}),
     "plates, sectors": partial(_plate, shape="sector"),
     "plates, segments": partial(_plate, shape="segment"),
+    "fitted": _fitted,
     "fixed": partial(_web, places=_FIRST, fields={"fixed": {"mass_kg": 0.1, "angle_deg": 170.0}}),
     "all fixed": partial(_web, places=_ALL, fields={"fixed": {"mass_kg": 0.1, "angle_deg": 170.0}}),
     "group": partial(_group, mirror=False),

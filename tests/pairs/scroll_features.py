@@ -81,10 +81,6 @@ def _scenario(subject: Subject) -> None:
     subject.body["scenarios"] = [{"name": "as it is"}, {"name": "other", "weight": 1.2, "changes": changes}]
 
 
-def _fitted(subject: Subject) -> None:
-    subject.body["fitted"] = [{"web": subject.first["name"], "mass_kg": 0.2, "angle_deg": 175.0}]
-
-
 def _texts(subject: Subject) -> None:
     """Lengths in millimetres, and a speed with its unit."""
     subject.machine.update({"orbit_radius_m": "5 mm", "speed_rpm": f"{subject.machine['speed_rpm']} rpm"})
@@ -179,7 +175,6 @@ SCROLL_FEATURES: Mapping[str, Feature] = {
     "loads of one pin": partial(_pin_loads, count=1),
     "outputs of a scroll": _outputs,
     "scenario of the scroll": _scenario,
-    "fitted": _fitted,
     "texts with units": _texts,
 }
 

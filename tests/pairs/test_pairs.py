@@ -111,7 +111,9 @@ def test_all_ladders_with_scenarios(base: str, scenarios: str) -> None:
 
 
 @pytest.mark.nightly
-@pytest.mark.parametrize("goal", ["orders all", "bearing weight", "bearing rms", "bending weight", "roll weight"])
+@pytest.mark.parametrize(
+    "goal", ["orders all", "bearing weight", "bearing rms", "bending weight", "roll weight", "priorities"]
+)
 @pytest.mark.parametrize("base", BASES)
 def test_all_ladders_over_a_revolution(base: str, goal: str) -> None:
     faults = [

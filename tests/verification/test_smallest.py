@@ -13,6 +13,8 @@ import pytest
 from optimizer.optimize import optimize
 from schemas.request.requests import OptimizeRequest
 from tests.night import part
+from tests.optimize.machines import machine, row, throw
+from tests.optimize.shafts import shaft
 from tests.pairs.asking import body_of
 from tests.pairs.machines import at_rest
 from tests.verification.checking import broken, is_broken, verdict
@@ -114,3 +116,18 @@ def test_nothing_is_reached_below_what_is_proven() -> None:
     for field in ("smallest", "lower_bound"):
         wrong["infeasibility"]["smallest"][0][field] *= 0.99
     assert is_broken(body, wrong)
+
+
+def test_a_plate_that_could_carry_far_too_much_breaks_no_bound() -> None:
+    """Regression: what multipliers round off, times all that such a plate holds, was more than the bound bears."""
+    plate = {"shape": "segment", "outer_radius_m": 500.0, "thickness_m": 0.5}
+    balancer = {**shaft("back", -1), "webs": [{"name": "back", "position_m": 0.1, "envelope": plate}]}
+    throws = [throw(0.0, 20.0, [row(90.0, 10.0)], rotating=3.0), throw(0.3, 91.3, [row(31.0, 7.7)], rotating=3.0)]
+    machine_fields = machine(throws, [], balance_shafts=[balancer])
+    body = {"machine": machine_fields, "objective": {"force_ceiling_x_N": 1.0, "force_ceiling_y_N": 1.0}}
+    answer = json.loads(optimize(OptimizeRequest.model_validate(body)).model_dump_json())
+    assert answer["status"] == "infeasible"
+    assert not broken(body, answer)
+    lowest = answer["infeasibility"]["smallest_force_lower_bound_N"]
+    answer["infeasibility"]["smallest_force_lower_bound_N"] = lowest * (1.0 + 1e-6)
+    assert is_broken(body, answer)

@@ -6,7 +6,7 @@ from typing import Protocol
 
 import numpy as np
 
-from optimizer.numerics.arrays import Complex
+from optimizer.numerics.arrays import Complex, Real
 from optimizer.numerics.records import record
 from optimizer.program.cuts.row_generation import MANY, single_group
 from optimizer.program.cuts.semi_infinite import Problem
@@ -15,6 +15,8 @@ from optimizer.program.statement import Statement
 
 #: width of the brackets of goals over a revolution, as a share of what they are measured by
 _WIDTH = 1e-12
+#: of the goals before an only one; nobody writes to it
+_NO_LEVELS = np.zeros(0)
 
 
 class Judge(Protocol):
@@ -45,19 +47,31 @@ class Judge(Protocol):
     def rounding(self, u: Complex) -> float:
         """What the objective may be off by rounding."""
 
+    def goals(self, u: Complex) -> tuple[float, ...]:
+        """The goals before the last."""
 
-def judge_of(problem: Problem) -> Judge:
-    """That of the only goal of a problem."""
+
+def judge_of(problem: Problem, levels: Real = _NO_LEVELS) -> Judge:
+    """That of the last goal of a problem.
+
+    Parameters
+    ----------
+    levels : of the goals before it.
+    """
     if problem.quantities:
-        return JudgeOverRevolution(problem)
+        return JudgeOverRevolution(problem, levels)
     return JudgeOfNorms(problem.begun, problem.case_of if problem.goal_of_case.size > 1 else None)
 
 
 @record(frozen=True)
 class JudgeOverRevolution:
-    """What counterweights come to over a revolution: the upper ends of brackets."""
+    """What counterweights come to over a revolution: the upper ends of brackets.
+
+    levels : (goals - 1,) what the goals before the last may come to; an excess over one counts as that of a ceiling.
+    """
 
     problem: Problem
+    levels: Real
 
     @property
     def limits(self) -> Limits:
@@ -72,7 +86,7 @@ class JudgeOverRevolution:
 
     @property
     def ceilings(self) -> int:
-        return len(self.problem.ceilings) + len(self.problem.limited)
+        return len(self.problem.ceilings) + len(self.problem.limited) + self.levels.size
 
     @property
     def at_rest(self) -> float:
@@ -82,10 +96,17 @@ class JudgeOverRevolution:
         return float(self.problem.values(u, _WIDTH).goals[-1])
 
     def excess(self, u: Complex) -> float:
-        return self.problem.values(u, _WIDTH).excess if self.ceilings else -np.inf
+        if not self.ceilings:
+            return -np.inf
+        values, count = self.problem.values(u, _WIDTH), self.levels.size
+        over = (values.goals[:count] - self.levels) / self.problem.units[:count]
+        return float(np.max(over, initial=values.excess))
 
     def rounding(self, u: Complex) -> float:
         return float(self.problem.begun.rounding(u))
+
+    def goals(self, u: Complex) -> tuple[float, ...]:
+        return tuple(self.problem.values(u, _WIDTH).goals[:-1].tolist())
 
 
 @record(frozen=True)
@@ -116,6 +137,9 @@ class JudgeOfNorms:
 
     def rounding(self, u: Complex) -> float:
         return float(self.statement.rounding(u))
+
+    def goals(self, u: Complex) -> tuple[float, ...]:
+        return ()
 
     def objective(self, u: Complex) -> float:
         statement = self.statement

@@ -36,6 +36,7 @@ class Judged:
     excess: float
     claimed: float | None
     bound: float
+    goals: tuple[float, ...]  # before the last
 
 
 @dataclass
@@ -140,6 +141,7 @@ def _judge(task: LadderProgram, position: float, weights: MethodResult) -> Judge
         excess=task.judge.excess(weights.unbalance),
         claimed=weights.claimed,
         bound=weights.prove(),
+        goals=task.judge.goals(weights.unbalance),
     )
 
 

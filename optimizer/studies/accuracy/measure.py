@@ -26,6 +26,7 @@ from optimizer.program.methods.optima import optima
 from optimizer.program.statement import Statement
 from optimizer.studies.accuracy.choices import at_rest, choices_ladder
 from optimizer.studies.accuracy.effects import effects_ladder
+from optimizer.studies.accuracy.goals_before import goal_errors, goals_before, level_prices
 from optimizer.studies.accuracy.judge import Judge, JudgeOfNorms, judge_of
 from optimizer.studies.accuracy.ladder import (
     LADDER_S,
@@ -143,9 +144,10 @@ def _revolution_fields(request: AccuracyRequest, task: Task, scene: Prepared) ->
     elapsed_s = time.perf_counter() - start
     # the search knows how far counterweights without a limit reach
     problem = whole.changed(limits=optimum.limits)
-    program = LadderProgram(problem.begun, OverTheTurn((), task.objective.combine, ()), problem=problem)
+    turn = OverTheTurn((), task.objective.combine, ())
     if isinstance(optimum, Conflict):
-        return _ladder_fields(request, scene, program, None, ())
+        return _ladder_fields(request, scene, LadderProgram(problem.begun, turn, problem=problem), None, ())
+    program = LadderProgram(problem.begun, turn, problem=problem, earlier=optimum.goals[:-1])
     return _fields_beside(request, scene, program, steps, optimum, elapsed_s, revolution_methods(steps))
 
 
@@ -162,7 +164,10 @@ def _fields_beside(
     result, proof, judge = steps.result(optimum), optimum.proof, program.judge
     u = result.unbalance
     best = Best(u, judge.objective(u), result.prove(), judge.excess(u), proof.statement, proof.multipliers)
-    earlier = FirstRun("service", f"relative gap {SHARPEST:.0e}", result, elapsed_s)
+    best = best._replace(level_prices=level_prices(program, proof))
+    # the rows of several goals begin with the levels that this run has found
+    several = bool(program.earlier)
+    earlier = None if several else FirstRun("service", f"relative gap {SHARPEST:.0e}", result, elapsed_s)
     return _ladder_fields(request, scene, program, best, ways, earlier)
 
 
@@ -208,6 +213,7 @@ class Best(NamedTuple):
     excess: float  # largest relative excess over a ceiling; -inf without ceilings
     statement: Statement  # of the proof
     multipliers: Multipliers
+    level_prices: float = 0.0  # what an excess over all levels of the goals before gains, for a relative one of 1
 
 
 def _best(statement: Statement) -> Best | None:
@@ -251,7 +257,7 @@ def _proven(judge: Judge, best: Best, bounds: list[float], objective: float, exc
     """
     bound, slack = max(bounds), judge.rounding(best.unbalance)
     over = np.full(best.statement.ceilings.size.shape, max(excess, 0.0))
-    slack += float(ceiling_allowance(best.statement, best.multipliers, over))
+    slack += float(ceiling_allowance(best.statement, best.multipliers, over)) + best.level_prices * max(excess, 0.0)
     if bound <= objective + slack:
         return min(bound, objective)
     _LOG.error("a lower bound is above the value of an answer: %.17g above %.17g", bound, objective)
@@ -268,7 +274,7 @@ def _judged(
     bound = _proven(task.judge, best, bounds, objective, excess)
     if np.isnan(bound):
         return None, ()
-    reference = _reference(objective, bound, rest, square)
+    reference = _reference(objective, bound, rest, square).model_copy(update={"goals": goals_before(task, square)})
     figures = [_figures(trial, bound, rest, bool(task.judge.ceilings)) for trial in trials]
     points = [
         # a batch answers no single request in the time of one of its programs
@@ -281,7 +287,7 @@ def _judged(
         for trial, figure in zip(trials, figures, strict=True)
     ]
     fastest = frontier(points, reference.resolution)
-    return reference, tuple(_row(*arguments) for arguments in zip(trials, figures, fastest, strict=True))
+    return reference, tuple(_row(task, *arguments) for arguments in zip(trials, figures, fastest, strict=True))
 
 
 class _MethodFigures(NamedTuple):
@@ -313,7 +319,7 @@ def _figures(trial: Trial, bound: float, rest: float, has_ceilings: bool) -> _Me
     )
 
 
-def _row(trial: Trial, figures: _MethodFigures | None, on_frontier: bool) -> AccuracyRow:
+def _row(task: LadderProgram, trial: Trial, figures: _MethodFigures | None, on_frontier: bool) -> AccuracyRow:
     method, answered = trial.method, trial.skipped is None
     return AccuracyRow(
         method=method.name,
@@ -323,6 +329,7 @@ def _row(trial: Trial, figures: _MethodFigures | None, on_frontier: bool) -> Acc
         on_frontier=on_frontier,
         runs=len(trial.times_s) if answered else 0,
         skipped=trial.skipped,
+        goals=goal_errors(task, trial),
         **(_NOTHING if figures is None else figures._asdict()),
     )
 

@@ -10,6 +10,7 @@ from optimizer.numerics.arrays import Complex, Real
 from optimizer.numerics.memoization import cached_property
 from optimizer.numerics.records import record
 from optimizer.program.certificate import objective_lower_bound
+from optimizer.program.cuts.optimum import GoalLevel
 from optimizer.program.cuts.semi_infinite import Problem
 from optimizer.program.kernel.finer_numbers import PRECISIONS, Precision
 from optimizer.program.methods.compiled import StageSolutions, stage_solutions
@@ -42,6 +43,7 @@ class LadderProgram:
     plain : where something is off, the same as one sum of norms; None where it is none.
     sums : (groups,) as of :class:`optimizer.studies.accuracy.judge.JudgeOfNorms`.
     problem : of goals over a revolution; None of the first order.
+    earlier : goals of it before the last, with what they may come to.
     """
 
     statement: Statement
@@ -49,11 +51,19 @@ class LadderProgram:
     plain: Statement | None = None
     sums: np.ndarray | None = None
     problem: Problem | None = None
+    earlier: tuple[GoalLevel, ...] = ()
 
     @cached_property
     def judge(self) -> Judge:
         """By what methods are judged."""
-        return JudgeOfNorms(self.statement, self.sums) if self.problem is None else judge_of(self.problem)
+        if self.problem is None:
+            return JudgeOfNorms(self.statement, self.sums)
+        return judge_of(self.problem, self.levels)
+
+    @cached_property
+    def levels(self) -> Real:
+        """(goals - 1,) what the goals before the last may come to."""
+        return np.array([goal.most for goal in self.earlier])
 
     def objective(self, u: Complex) -> float:
         """What counterweights (K,) kg m come to."""

@@ -11,10 +11,10 @@ from functools import partial
 
 import numpy as np
 
-from optimizer.numerics.arrays import Complex
+from optimizer.numerics.arrays import Complex, Real
 from optimizer.program.cuts.cut import Pool
-from optimizer.program.cuts.optimum import Conflict
-from optimizer.program.cuts.proof import proofs
+from optimizer.program.cuts.optimum import Conflict, next_goal
+from optimizer.program.cuts.proof import proofs, times, units
 from optimizer.program.cuts.semi_infinite import Cuts, Problem
 from optimizer.program.optimum import optimum
 from optimizer.program.reference.assembled import GroupLimit, NoPoint, solved
@@ -58,7 +58,7 @@ def revolution_methods(steps: Steps) -> Iterator[Method]:
         yield Method("cuts", rounds_in_words(rounds), partial(_prepared_rounds, rounds))
     for gap in GAPS:
         # corners of masses are found on the way; without them the program is the whole
-        corners = bool(worst.scatters and worst.measures)
+        corners = bool(worst.scatters and worst.measures) and not steps.has_several_goals
         prepared = steps.run(gap, steps.whole) if corners else partial(_service, steps, gap)
         yield Method("service", f"relative gap {gap:.0e}", prepared)
     for method, reason in _ABSENT.items():
@@ -71,7 +71,7 @@ def _prepared(cuts: Callable[[Problem, float], tuple[Cuts, bool]]) -> Run:
     def run(task: LadderProgram, position: float, time_limit_s: float) -> MethodResult | str:
         problem = _problem(task)
         own, proves = cuts(problem, position)
-        result = _optimum(problem, own, time_limit_s)
+        result = _optimum(problem, own, task.levels, time_limit_s)
         return result if proves or isinstance(result, str) else replace(result, prove=_nothing)
 
     return run
@@ -92,14 +92,14 @@ def _prepared_rounds(rounds: int) -> Run:
         problem = _problem(task)
         pool = Pool(problem.first, problem.scatter)
         every = np.full(len(problem.quantities), -np.inf)
-        result = _optimum(problem, pool.cuts, time_limit_s)
+        result = _optimum(problem, pool.cuts, task.levels, time_limit_s)
         for _ in range(rounds):
             if isinstance(result, str):
                 break
             reached = problem.values(result.unbalance, _WIDTH).reached
             if not pool.add([(entry,) for entry in reached], result.unbalance, every):
                 break
-            result = _optimum(problem, pool.cuts, time_limit_s)
+            result = _optimum(problem, pool.cuts, task.levels, time_limit_s)
         return result
 
     return run
@@ -107,7 +107,12 @@ def _prepared_rounds(rounds: int) -> Run:
 
 def _service(steps: Steps, relative_gap: float) -> Run:
     def run(task: LadderProgram, position: float, time_limit_s: float) -> MethodResult | str:
-        result = optimum(_problem(task), relative_gap, False, time_limit_s)
+        problem = _problem(task)
+        if task.earlier:
+            # what the last of them came to its value with keeps all of their levels
+            at_levels = task.earlier[-1].unbalance
+            return steps.result(next_goal(problem, task.earlier, at_levels, relative_gap, time_limit_s))
+        result = optimum(problem, relative_gap, False, time_limit_s)
         return "no counterweights keep the ceilings" if isinstance(result, Conflict) else steps.result(result)
 
     return run
@@ -118,24 +123,32 @@ def _problem(task: LadderProgram) -> Problem:
     return task.problem
 
 
-def _optimum(problem: Problem, cuts: Cuts, time_limit_s: float) -> MethodResult | str:
-    """The optimum of finitely many cuts by clarabel."""
-    statement = problem.outer(cuts)
-    data, scaling = scaled(statement, _TOLERANCE, problem.begun)
-    highest = statement.largest(statement.floor) / scaling.objective
-    several = range(problem.goal_of_case.size)
-    sums = [GroupLimit(problem.case_of == case, -float(np.sum(highest[problem.case_of == case]))) for case in several]
-    result = solved(data, _TOLERANCE, time_limit_s, sums=sums)
+def _optimum(problem: Problem, cuts: Cuts, levels: Real, time_limit_s: float) -> MethodResult | str:
+    """The optimum of finitely many cuts by clarabel, under levels of the goals before the last."""
+    stated, unit, last = problem.outer(cuts), units(problem), len(problem.goals) - 1
+    goal_of, case_of = problem.goal_of, problem.case_of
+    statement = times(stated, 1.0 / unit[goal_of])
+    data, scaling = scaled(statement, _TOLERANCE, times(problem.begun, 1.0 / unit[goal_of]))
+    highest = statement.largest(statement.floor)
+
+    def sums(n: int, most: float) -> Iterator[GroupLimit]:
+        """The sums of a goal, none above a level."""
+        for case in np.flatnonzero(problem.goal_of_case == n):
+            groups = case_of == case
+            yield GroupLimit(groups, (most - float(np.sum(highest[groups]))) / scaling.objective)
+
+    targets = [limit for n, level in enumerate(levels / unit[:last]) for limit in sums(n, level - _TOLERANCE)]
+    result = solved(data, _TOLERANCE, time_limit_s, goal_of == last, targets, [*sums(last, 0.0)])
     if isinstance(result, NoPoint):
         return result.reason
     u = statement.limits.into(scaling.unbalance(statement, result.solution))
     multipliers = scaling.multipliers(statement, result.solution)
 
     def prove() -> float:
-        every = proofs(problem, cuts, statement, u, multipliers, np.zeros(0))
+        every = proofs(problem, cuts, stated, u, multipliers, levels)
         return max((proof.bound for proof in every), default=-np.inf)
 
-    return MethodResult(u, _claimed(problem, statement, u), prove)
+    return MethodResult(u, _claimed(problem, stated, u), prove)
 
 
 def _claimed(problem: Problem, statement: Statement, u: Complex) -> float:

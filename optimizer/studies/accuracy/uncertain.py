@@ -29,6 +29,7 @@ from optimizer.solve.worst_case import nominal
 from optimizer.studies.accuracy.judge import JudgeOfNorms
 from optimizer.studies.accuracy.ladder import SOLVE_S
 from optimizer.studies.accuracy.methods import GAPS, LadderProgram, Method, MethodResult, Run, methods
+from schemas.request.objective import COSTS
 
 #: gap asked of every step but those of the service
 SHARPEST = 1e-9
@@ -172,6 +173,8 @@ class Steps:
         self.task, self._scene, self._usable = task, scene, usable
         #: machines of the scenarios, which no run prepares again
         self._machines = Robust(task, scene, task.demand).machines
+        goals = [priority.goal for priority in task.objective.priorities if priority.goal not in COSTS]
+        self.has_several_goals = len(goals) > 1
 
     @property
     def senses(self) -> dict[str | None, float]:
@@ -197,7 +200,8 @@ class Steps:
             result = step(self.robust(gap, time_limit_s))
             if isinstance(result, Conflict):
                 return _UNREACHABLE if proves else f"{_UNREACHABLE} of the unchanged machine"
-            return self.result(result, proves)
+            # under goals of a part, which are smaller, the last of them may be larger than in the whole
+            return self.result(result, proves and not self.has_several_goals)
 
         return lambda: run
 

@@ -76,6 +76,25 @@ def _ladder(answer: AccuracyAnswer) -> Iterator[Block]:
                 yield Paragraph(f"{method_name(row.method)}, {row.setting}: {row.skipped}")
     if answer.reference is not None:
         yield Paragraph(_proven("no counterweights within the limits", answer.reference))
+        yield from _goals_before(answer.reference)
+
+
+def _goals_before(reference: Reference) -> Iterator[Block]:
+    """The goals whose limits the last is under."""
+    if not reference.goals:
+        return
+    yield Paragraph(
+        "The objective is the last goal, under the limits of the goals before it. All methods are given these."
+    )
+    heads = ["goal", "#smallest", "#lower bound", "#limit", "#without counterweights"]
+    yield table(
+        "",
+        heads,
+        [
+            (goal.goal, goal.value, goal.lower_bound, goal.limit, goal.without_counterweights)
+            for goal in reference.goals
+        ],
+    )
 
 
 def _proven(none: str, reference: Reference) -> str:

@@ -274,7 +274,6 @@ def test_a_large_grid_is_not_tried(monkeypatch: pytest.MonkeyPatch) -> None:
     ("machine", "objective", "pointer"),
     [
         (twin(), EVERY_ORDER, "/machine/throws/0/rows/0/connecting_rod"),
-        (body("2d12")["machine"], {"priorities": [{"goal": "external"}, {"goal": "mass"}]}, "/objective/priorities"),
         ({**body("2d12")["machine"], "bearings": []}, BEARINGS, "/machine/bearings"),
     ],
 )
