@@ -11,7 +11,7 @@ from verify_numbers import ONE, STEP, ZERO, J, Number, Place, largest, total
 from verify_program import CEILINGS, phasors
 
 
-class _Limit(NamedTuple):
+class Limit(NamedTuple):
     """A ceiling in one case: its entry, its multiplier, and what an excess over it is multiplied by."""
 
     entry: Place
@@ -61,8 +61,8 @@ def _named(verdict: Place, names: Optional[Set[str]]) -> Claims:
     yield "conflict", verdict / "scenarios", ONE if complete else -ONE, ONE
 
 
-def _proven(program: Program, limits: Sequence[_Limit], proof: Place, implied: Place, place: Place) -> Claims:
-    least, believed = _excess(program, limits, proof, implied)
+def _proven(program: Program, limits: Sequence[Limit], proof: Place, implied: Place, place: Place) -> Claims:
+    least, believed = excess(program, limits, proof, implied)
     if believed:
         yield "reach", implied, None, ONE
     # strictly above 0: what is at most 0 proves nothing
@@ -72,7 +72,7 @@ def _proven(program: Program, limits: Sequence[_Limit], proof: Place, implied: P
         yield EVIDENCE, implied, None, ONE
 
 
-def _limits(program: Program, proof: Place) -> List[_Limit]:
+def _limits(program: Program, proof: Place) -> List[Limit]:
     """Every ceiling of a proof that has a price, which stands in the row at its place."""
     rows, entries, limits = list(proof / "rows"), list(proof / "ceilings"), []
     prices = [(row / "value").number(least=0) for row in rows] if len(rows) == len(entries) else [ZERO for _ in entries]
@@ -80,11 +80,11 @@ def _limits(program: Program, proof: Place) -> List[_Limit]:
         multiplier = (entry / "x").number() + J * (entry / "y").number()
         longest = largest(price, abs(multiplier))
         if longest.high > 0:
-            limits.append(_Limit(entry, program.part(entry), multiplier, longest))
+            limits.append(Limit(entry, program.part(entry), multiplier, longest))
     return limits
 
 
-def _excess(program: Program, limits: Sequence[_Limit], proof: Place, implied: Place) -> Tuple[Optional[Number], bool]:
+def excess(program: Program, limits: Sequence[Limit], proof: Place, implied: Place) -> Tuple[Optional[Number], bool]:
     """What the ceilings are exceeded by at least, each by its price, and whether implied limits are believed.
 
     Any price no less than the length of its multiplier proves it, and so does any corner of masses that are off.
@@ -107,7 +107,7 @@ def _excess(program: Program, limits: Sequence[_Limit], proof: Place, implied: P
     return program.within_limits(pulls, proof, implied, ZERO)
 
 
-def _corners(limit: _Limit, start: Number, cap: Number) -> List[Tuple[Number, Number]]:
+def _corners(limit: Limit, start: Number, cap: Number) -> List[Tuple[Number, Number]]:
     """What a ceiling of the first order limits, and how much it allows, in every corner of masses that are off."""
     response = (limit.entry / "response").text()
     most = (limit.part.goal / CEILINGS[response]).number(least=0)

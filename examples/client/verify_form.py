@@ -78,6 +78,9 @@ trades/points: status status_reason values nominal_values beaten_by force_peak_N
 trades/points/certificate: corner relative_gap mass_lower_bound_kg mass_relative_gap cuts rounds method
 points/certificate: force_N moment_Nm relative_gap yardstick mass_lower_bound_kg mass_relative_gap mass_yardstick_kg
   mass_force_limit_N mass_moment_limit_Nm implied_max_mass_kg method
+counts: max_total_mass_kg of least status points
+counts/points: at_most status status_reason value lower_bound relative_gap weights part_numbers total_mass_kg
+  force_peak_N moment_peak_Nm counterweights balance_shafts balance_shafts_mass_kg nodes method
 ends: smallest_force_N smallest_force_lower_bound_N moment_at_smallest_force_Nm smallest_moment_Nm
   smallest_moment_lower_bound_Nm force_at_smallest_moment_N multipliers
 ends/multipliers: smallest_force smallest_moment
@@ -132,6 +135,9 @@ points/certificate: force_N mass_force_limit_N mass_lower_bound_kg mass_moment_l
 trades: max_total_mass_kg reason infeasibility
 trades/points: nominal_values beaten_by balance_shafts_mass_kg
 trades/points/certificate: relative_gap mass_lower_bound_kg mass_relative_gap
+counts: max_total_mass_kg
+counts/points: value lower_bound relative_gap weights part_numbers total_mass_kg force_peak_N moment_peak_Nm
+  balance_shafts_mass_kg
 match: balance_shafts_mass_kg
 match/certificate: gap lower_bound relative_gap
 """

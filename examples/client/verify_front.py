@@ -7,6 +7,7 @@ from functools import partial
 from verify_answer import MASS_GAP, before, touched
 from verify_cases import OF_CASES, OFF, uncertain
 from verify_claims import Claim, Claims, covered, near, same
+from verify_counts import COUNTED, counted
 from verify_cuts import SHAFTS
 from verify_first import CEILING, ceilings, infeasible, light, lightest, priced_at, proven, smallest
 from verify_form import form
@@ -28,8 +29,9 @@ UNSURE = 1e-9
 def front(request: Place, answer: Place) -> Claims:
     """Fronts of force and moment, one for each budget."""
     yield from form(answer, ("pareto",))
-    kind = "trades" if list(request / "responses") else "fronts"
-    request.require_coverage(f"{ENTRY_FIELDS}{SHAFTS}{OFF}{OF_CASES}{TRADED if kind == 'trades' else ''}")
+    kind = "counts" if request / "counts" else "trades" if list(request / "responses") else "fronts"
+    fields = {"counts": COUNTED + TRADED, "trades": TRADED}.get(kind, "")
+    request.require_coverage(f"{ENTRY_FIELDS}{SHAFTS}{OFF}{OF_CASES}{fields}")
     design, goal = request / "machine", request / "objective"
     plain = _machine(request, answer, design / "max_total_mass_kg")
     yield from before(request, plain, answer)
@@ -45,6 +47,9 @@ def front(request: Place, answer: Place) -> Claims:
         elif curve / "max_total_mass_kg":
             # nobody asked for one
             yield "max_total_mass", curve / "max_total_mass_kg", -ONE, ONE
+        if kind == "counts":
+            yield from covered(counted(request, _machine(request, answer, budget), curve))
+            continue
         if (curve / "status").text(*STATUSES) == "infeasible":
             yield "status", curve / "status", ONE if curve / "infeasibility" else -ONE, ONE
             of_all = list(design / "balance_shafts") or uncertain(request) or looks_at_the_turn(request)

@@ -7,6 +7,7 @@ not covered, nor is the best of the parts as they are listed where counterweight
 from __future__ import annotations
 
 import copy
+from fractions import Fraction
 from itertools import combinations, permutations, product
 from math import factorial, perm
 from typing import Any, Dict, Iterator, List, Mapping, NamedTuple, Sequence, Tuple
@@ -18,7 +19,8 @@ from verify_machine import NAMES, Machine, Responses
 from verify_numbers import ABOUT_ONE, ONE, SPECK, ZERO, Number, Place, Unreadable, largest, real
 from verify_orders import first_order
 from verify_program import Statement
-from verify_weights import counterweights, shafts
+from verify_weights import ANGLE, counterweights, shafts
+from verify_weights import ROUNDING as ROUNDED
 
 __all__ = ["matching"]
 
@@ -27,6 +29,8 @@ MOST, ROUNDING = 5_000, 1e-11
 #: kg on a row that show what a kilogram there does, beside which its own mass is rounding
 HEAVY = 2.0**120
 NUT = "balance_nut"
+#: claims of limits that counterweights are chosen within
+LIMITS = ("max_mass", "max_total_mass", "sector", "web_groups")
 Row = Tuple[int, int]
 
 
@@ -120,7 +124,8 @@ def _evaluated(
     goal, proof, none = request / "objective", answer / "certificate", Place(None)
     before, after = (Machine(design, goal, none, none) for design in machines)
     is_choice = (request / "choose_counterweights").value is True
-    fitted = yield from _fitted(after, answer, machines[1])
+    placed = _fitted(after, answer, machines[1])
+    fitted = yield from placed if is_choice else _beyond_limits(placed)
     turning = fitted.first
     if not is_choice:
         webs = (web for web in request / "machine" / "webs" if web / "fixed")
@@ -130,6 +135,11 @@ def _evaluated(
         for entry in every:
             place = there.get((entry / "web").text(), Place({"mass_kg": 0.0, "angle_deg": 0.0}))
             yield near("counterweights", entry / "mass_kg", (place / "mass_kg").number())
+            stated, printed = (place / "angle_deg").double(0.0), (entry / "angle_deg").double()
+            off = (Fraction(printed) - Fraction(stated) + 180) % 360 - 180
+            allowed = Fraction(ANGLE) + Fraction(ROUNDED) * abs(Fraction(stated))
+            is_there = (entry / "mass_kg").number().high > 0
+            yield "counterweights", entry / "angle_deg", real(allowed - abs(off)) if is_there else ONE, ONE
     weights = {"force": (goal / "force_weight").number(1.0, least=0), "moment": ONE / after.span}
     if goal / "moment_weight":
         weights["moment"] = (goal / "moment_weight").number(least=0)
@@ -159,6 +169,16 @@ def _evaluated(
         off = ROUNDING * (float(abs(size)) + float(objective))
         room = least + off - (proof / "lower_bound").double(0.0)
         yield "lower_bound", proof / "lower_bound", real(room), real(max(abs(least), off))
+
+
+def _beyond_limits(claims: Claims) -> Claims:
+    """What is on the machine already need not keep the limits of those that are chosen."""
+    while True:
+        try:
+            claim, place, room, size = next(claims)
+        except StopIteration as end:
+            return end.value
+        yield claim, place, ONE if claim in LIMITS and room is not None and room.high < 0 else room, size
 
 
 def _fitted(machine: Machine, answer: Place, design: Place) -> Claims:

@@ -6,13 +6,14 @@ from typing import Dict, Optional
 
 from verify_bearings import SAMPLE, peak_of
 from verify_cases import CASES, Scatter, scenarios
-from verify_claims import Claims, covered, same
+from verify_claims import EVIDENCE, Claims, covered, near, same
+from verify_conflict import Limit, excess
 from verify_cuts import Part
 from verify_first import SMALLEST, component, implied_alone
 from verify_levels import WIDE
 from verify_machine import NAMES, ON_FRAME, Machine
 from verify_multipliers import Program, by_cuts
-from verify_numbers import ABOUT_ONE, ONE, SPECK, NotCovered, Number, Place, largest, real, total
+from verify_numbers import ABOUT_ONE, ONE, SPECK, ZERO, J, NotCovered, Number, Place, largest, real, total
 from verify_program import CEILINGS
 
 #: fields of ceilings on loads by the responses that they limit
@@ -22,6 +23,7 @@ KINDS = (*ON_FRAME, "bearing", "bending", "roll")
 OWN = tuple(CEILINGS[name] for name in NAMES)
 #: relative: a specific load stands as a force, by the area of its bearing
 PRINTED = 1e-12
+_NONE = Place(None)
 
 
 class SmallestPeaks:
@@ -49,12 +51,48 @@ class SmallestPeaks:
                 yield "smallest", self.verdict / "smallest", ONE if item.value in entries else -ONE, ONE
         for entry in self.verdict / "smallest":
             name = (entry / "response").text()
-            if of_cases or name not in CEILINGS or not goal / CEILINGS[name]:
+            if of_cases and ":" in name and name in CEILINGS:
+                yield from covered(self._component(name, entry))
+            elif of_cases or name not in CEILINGS or not goal / CEILINGS[name]:
                 yield from covered(self._under_a_ceiling(entry))
             else:
                 # a component of the first order, in closed form
                 machine = next(iter(self._alone(name).parts.values())).machine
                 yield from covered(component(goal, machine, self.verdict, entry))
+
+    def _component(self, name: str, entry: Place) -> Claims:
+        """Along an axis, in the worst case: nothing keeps a ceiling below the bound."""
+        goal, field, lowest = self.request / "objective", CEILINGS[name], entry / "lower_bound"
+        yield near("smallest", entry / "ceiling", (goal / field).number(0.0))
+        yield same("smallest", entry / "ceiling_field", field if goal / field else None)
+        yield same("smallest", entry / "response", name)
+        stated = {"orders": (goal / "orders").value or "first", field: lowest.double(least=0)}
+        program = Program(Place({**self.request.value, "objective": stated}, *self.request.path), self.machine, _NONE)
+        proof, implied = entry / "multipliers", implied_alone(self.verdict, name, self.implied)
+        rows, limits = {(row / "name").text(): (row / "value").number(least=0) for row in proof / "rows"}, []
+        names = [(term / "row").text() for term in proof / "terms"]
+        if len({*names}) < len(names) and any(not term / "angle_deg" for term in proof / "terms"):
+            raise NotCovered(proof / "terms")
+        for term, row in zip(proof / "terms", names):
+            if (term / "response").text() != name:
+                raise NotCovered(term)
+            multiplier = (term / "x").number() + J * (term / "y").number()
+            price = largest(rows.get(row, ZERO), abs(multiplier))
+            limits += [Limit(term, program.part(term), multiplier, price)] if price.high > 0 else []
+        least, believed = excess(program, limits, proof, implied)
+        if believed:
+            yield "reach", implied, None, ONE
+        yield "smallest", lowest, least, ONE
+        if least is not None:
+            yield EVIDENCE, proof, None, ONE
+            yield EVIDENCE, implied, None, ONE
+        value, above = (entry / "smallest").number(), (entry / "smallest").number() - lowest.number()
+        yield "smallest", entry / "smallest", above + SPECK * abs(value), abs(value)
+        kind = name.partition(":")[0]
+        size = largest(*(_at_rest(part, kind) + _scatter(part, kind, program.off) for part in program.parts.values()))
+        room = size * real(SMALLEST) + SPECK * abs(value) - above
+        # where rounding of what the limits allow is more than that, nothing is told
+        yield "smallest", entry / "smallest", None if room.high < 0 and least is None else room, size
 
     def _under_a_ceiling(self, entry: Place) -> Claims:
         name, field = (entry / "response").text(), (entry / "ceiling_field").text()

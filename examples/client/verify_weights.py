@@ -238,8 +238,8 @@ def castings(design: Place, answer: Place) -> List[Tuple[Place, Place]]:
 
 
 def catalogue(design: Place, answer: Place) -> Claims:
-    """Masses, holes and counts that there are; steps are not covered."""
-    general = design / "catalogue"
+    """Masses, holes, steps and counts that there are."""
+    general, cranks = design / "catalogue", own_cranks(design)
     used: list[Number] = []
     pairs = castings(design, answer)
     for web, entry in pairs:
@@ -250,6 +250,8 @@ def catalogue(design: Place, answer: Place) -> Claims:
         # where an option is both, masses of the catalogue are none of them
         masses = [option for option, _ in own if option is not None] or list(general / "masses_kg")
         off = min((abs(option.number() - mass) for option in masses), key=lambda option: option.high, default=None)
+        if not masses and general / "mass_step_kg":
+            off = _from_step(mass, (general / "mass_step_kg").number())
         yield "catalogue", entry / "mass_kg", None if off is None else mass * real(SAME) - off, mass
         turn = Fraction(360)
         wide = (mass * real(SAME)).high
@@ -257,6 +259,13 @@ def catalogue(design: Place, answer: Place) -> Claims:
             at for option, at in own if at is not None and (option is None or abs(option.number() - mass).low <= wide)
         ]
         away = [abs((Fraction(option.double()) - Fraction(angle) + turn / 2) % turn - turn / 2) for option in angles]
+        if all(at is None for _, at in own) and general / "angle_step_deg":
+            # from the own crank, on a balance shaft from the x axis
+            crank = cranks.get((web / "name").text())
+            starts = [0.0] if "balance_shafts" in web.path else [crank.degrees] if crank else []
+            step = Fraction((general / "angle_step_deg").double(least=1e-9))
+            rests = [(Fraction(angle) - Fraction(start)) % turn for start in starts]
+            away = [min(abs(rest - round(rest / step) * step), turn - rest) for rest in rests]
         yield "catalogue", entry / "angle_deg", real(Fraction(SAME) - min(away)) if away else None, ONE
         if all(abs(mass - other).low > (mass * real(SAME)).high for other in used):
             used.append(mass)
@@ -264,3 +273,9 @@ def catalogue(design: Place, answer: Place) -> Claims:
     for most, count in ((design / "max_counterweights", fitted), (general / "max_part_numbers", len(used))):
         if most:
             yield "catalogue", most, most.number() - real(count), ONE
+
+
+def _from_step(mass: Number, step: Number) -> Number:
+    """How far a mass is from a whole number of steps, at least one."""
+    whole = max(round(float(mass / step)), 1) if step.low > 0 else 0
+    return abs(mass - real(whole) * step)

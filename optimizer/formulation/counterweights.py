@@ -84,7 +84,8 @@ def mass_and_angle(
     fitted = [weights.get(web.name) for web in machine.every_web]
     mass = stacked([weight.mass_kg if weight else 0.0 for weight in fitted])
     angle = np.mod(stacked([weight.angle_deg if weight else 0.0 for weight in fitted]), 360.0)
-    return beside(machine, mass, angle)
+    # what is not there has no direction, wherever it is said to be
+    return beside(machine, mass, np.where(mass > 0.0, angle, 0.0))
 
 
 def too_heavy(

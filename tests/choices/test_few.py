@@ -3,6 +3,7 @@
 import itertools
 
 import numpy as np
+import pytest
 
 from optimizer.choices.discrete.few import at_most, costs, offer_few
 from optimizer.choices.discrete.options import Incumbent
@@ -41,3 +42,14 @@ def test_the_best_of_the_cheap_ones_is_offered_and_what_all_others_cost_is_told(
         assert number <= np.min(spent[~cheap], initial=np.inf) * (1.0 + 1e-12)
         assert number > may or not np.any(~cheap)
     assert lowest[0] < 3.0
+
+
+def test_sets_are_counted_where_nothing_may_be_spent_or_no_set_is_known() -> None:
+    """Analytic: with nothing to spend no fewer than the one that costs nothing, and all four where nothing is known.
+
+    Regression: both warned of quotients that are no numbers.
+    """
+    cost = np.array([[[0.0, 3.0, np.inf], [0.0, 1.0, np.inf]]] * 2)
+    counted = at_most(cost, np.array([0.0, np.inf]))
+    assert 1.0 <= counted[0] <= 4.0 * (1.0 + 1e-12)
+    assert counted[1] == pytest.approx(4.0)

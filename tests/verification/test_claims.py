@@ -16,6 +16,7 @@ from schemas.request.requests import OptimizeRequest
 from service.verification import checker
 from tests.night import by_day, part
 from tests.pairs.asking import body_of
+from tests.verification.answers import pair
 from tests.verification.anything import JSON, judged, paths, replaced
 from tests.verification.checking import ALL, broken, is_broken, optimized, verdict
 from tests.verification.kinds import SINGLE
@@ -233,3 +234,17 @@ def test_what_rounding_of_the_limits_hides_is_no_fault() -> None:
     # of the force, which is no rounding, nothing is let go
     answer["infeasibility"]["smallest_force_N"] *= 1.001
     assert any(claim.startswith("smallest_force") for claim in broken(body, answer))
+
+
+@pytest.mark.parametrize(
+    ("field", "step", "verdict"),
+    [("angle_step_deg", 22.5, "held"), ("angle_step_deg", 90, "broken"), ("angle_step_deg", 40, "broken"),
+     ("mass_step_kg", 1.5, "held"), ("mass_step_kg", 6.0, "broken"), ("mass_step_kg", 2.999, "broken")],
+)  # fmt: skip
+def test_what_is_chosen_is_on_the_steps_of_a_catalogue(field: str, step: float, verdict: str) -> None:
+    """Analytic: 6 and 9 kg at multiples of 45 degrees from their cranks are on steps of 3 and 1.5 kg, 45 and 22.5."""
+    request, answer = pair("catalogue")
+    assert checker().verify(request, answer)["not_covered"] == ["/answer/certificate/lower_bound"]
+    request["machine"]["catalogue"][field] = step
+    claims = {claim["claim"]: claim["verdict"] for claim in checker().verify(request, answer)["claims"]}
+    assert claims["catalogue"] == verdict

@@ -139,3 +139,35 @@ def test_parts_beside_a_heavy_row_are_compared_to_their_last_digits() -> None:
     assert checker().verify(body, answer)["verdict"] == "held"
     answer["certificate"]["lower_bound"] *= 1.0 + 1e-7
     assert checker().verify(body, answer)["verdict"] == "broken"
+
+
+def _with_weights(**limits: Any) -> Answer:
+    """Two cranks whose counterweights are there already, beyond the limits of what would be chosen."""
+    webs = [
+        {"name": name, "position_m": z, "counterweight_radius_m": 0.2, "max_mass_kg": 1.0, **limits}
+        for name, z in (("a", -0.4), ("b", 0.4), ("c", 0.0))
+    ]
+    body = {
+        "machine": machine([0.0, 100.0], [0.0] * 2),
+        "parts": parts(5, 2, 2),
+        "counterweights": [
+            {"web": "a", "mass_kg": 3.0, "angle_deg": 20.0},
+            {"web": "b", "mass_kg": 2.0, "angle_deg": 500.0},
+            {"web": "c", "mass_kg": 0.0, "angle_deg": 77.0},
+        ],
+    }
+    body["machine"] |= {"webs": webs, "max_total_mass_kg": 1.0, "web_groups": [{"name": "all", "webs": ["a", "b"]}]}
+    return body
+
+
+def test_what_is_on_the_machine_keeps_no_limits() -> None:
+    """Limits, sectors and groups are of what is chosen; one of no mass has no angle."""
+    body = _with_weights(sector={"centre_deg": 180.0, "half_angle_deg": 10.0})
+    answer = matched(body)
+    assert [weight.angle_deg for weight in answer.counterweights] == [20.0, 140.0, 0.0]
+    document = answer.model_dump(mode="json", by_alias=True)
+    assert checker().verify(body, document)["verdict"] == "held"
+    # not that of the request, though all that is made of it agrees
+    turned = copy.deepcopy(body)
+    turned["counterweights"][1]["angle_deg"] = 141.0
+    assert checker().verify(turned, document)["verdict"] == "broken"

@@ -36,8 +36,11 @@ def costs(left: np.ndarray, forced: Real) -> tuple[Real, Real]:
 
 def at_most(cost: Real, may_cost: Real) -> Real:
     """How many sets there are at most that cost no more than they may (N,): the bound of Chernoff (1952)."""
-    share = np.minimum(cost / may_cost[:, None, None], _MANY)
-    left = np.isfinite(cost)
+    left, may = np.isfinite(cost), may_cost[:, None, None]
+    # what costs nothing is no share of it, be that nothing or without end
+    share = np.where(cost > 0.0, _MANY, 0.0)
+    np.divide(cost, may, out=share, where=left & (cost > 0.0) & (may != 0.0))
+    share = np.minimum(share, _MANY)
     logs = [x + np.sum(np.log(np.sum(np.exp(-x * share), axis=-1, where=left)), axis=-1) for x in _EXPONENTS]
     count: Real = np.exp(np.min(logs, axis=0))
     return count

@@ -153,15 +153,18 @@ class _Boxes(ChoiceSearch):
         bound, value = corner.solution.certificate.lower_bound, float(corner.values[axis])
         # a little more than its share, for the gap of the sum
         most = float(end.values[axis] + 1.5 * _SLACK * self.gap * size[axis])
-        if bound is None or value > most or corner.solution.status != "optimal":
+        if value > most:
             # the boxes show it
             return end
-        # of what has less of the peak that is dear the other is no less than this
-        least = bound - price * value
-        if corner.values[other] - least > self.gap * size[other]:
-            # both peaks may be of two scenarios, where a sum is of one: none has less of the first
-            return replace(corner, corner=np.where(np.arange(2) == axis, end.corner, corner.values))
-        return replace(corner, corner=np.where(np.arange(2) == axis, value, least))
+        if bound is not None and corner.solution.status == "optimal":
+            # of what has less of the peak that is dear the other is no less than this
+            least = bound - price * value
+            if corner.values[other] - least <= self.gap * size[other]:
+                return replace(corner, corner=np.where(np.arange(2) == axis, value, least))
+        # both peaks may be of two scenarios, where a sum is of one, or time has ended the search: none has less of the
+        # first, which is proven as it is of the end
+        solution = replace(corner.solution, status=end.solution.status, reason=end.solution.reason)
+        return replace(corner, solution=solution, corner=np.where(np.arange(2) == axis, end.corner, corner.values))
 
     def _between(
         self, force: ChoicePoint, moment: ChoicePoint, size: Real, points: int

@@ -2,12 +2,14 @@
 
 import itertools
 from copy import deepcopy
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
 import pytest
 
 from optimizer.studies.accuracy.measure import accuracy
+from optimizer.studies.pareto.choice_search import ChoiceSearch
 from service.report.chapters.counts import count_table
 from tests.optimize.machines import web
 from tests.optimize.shafts import WHOLE, at, shaft, single
@@ -44,6 +46,27 @@ def test_force_and_moment_are_traded_by_the_shaft_alone() -> None:
     assert pareto_front.ends is not None
     assert pareto_front.ends.force_at_smallest_moment_N == pareto_front.points[-1].force_peak_N
     assert pareto_front.points[-1].certificate.force_N == pytest.approx(0.6 * WHOLE, rel=1e-3)
+
+
+def test_an_end_is_the_least_of_the_other_peak_though_time_ends_its_search(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Analytic: the same; the sum of both peaks proves nothing, and the end stays certified by its own peak."""
+    search = ChoiceSearch.optimum
+
+    def in_haste(self: ChoiceSearch, *places: Any, **fields: Any) -> Any:
+        point = search(self, *places, **fields)
+        if fields.get("combine") != "sum":
+            return point
+        proof = point.solution.certificate.model_copy(update={"lower_bound": None})
+        return replace(point, solution=replace(point.solution, status="inaccurate", certificate=proof))
+
+    monkeypatch.setattr(ChoiceSearch, "optimum", in_haste)
+    pareto_front = front(CASTING, points=5)
+    assert pareto_front.status == "optimal"
+    last = pareto_front.points[-1]
+    assert last.moment_peak_Nm == pytest.approx(0.0, abs=1e-9 * WHOLE)
+    assert last.force_peak_N == pytest.approx(0.6 * WHOLE, rel=1e-6)
+    assert last.certificate.relative_gap is not None
+    assert last.certificate.relative_gap <= 1e-3
 
 
 @pytest.mark.parametrize("orders", ["first", "all"])
