@@ -74,13 +74,19 @@ def test_left(place):
 def pytest_run(folder: Path, *arguments: str) -> subprocess.CompletedProcess[str]:
     # no pipes, as processes that are left would hold them open
     with tempfile.TemporaryFile("w+") as out:
-        ended = subprocess.run(command(folder, *arguments), cwd=TESTS.parent, stdout=out, stderr=out, timeout=300)
+        files = {"stdout": out, "stderr": out}
+        environment = {**os.environ, **_ALONE}
+        ended = subprocess.run(command(folder, *arguments), cwd=TESTS.parent, env=environment, timeout=300, **files)
         out.seek(0)
         return subprocess.CompletedProcess(ended.args, ended.returncode, out.read())
 
 
+#: plugins of installed packages take longer to load than all that these runs do
+_ALONE = {"PYTEST_DISABLE_PLUGIN_AUTOLOAD": "1"}
+
+
 def command(folder: Path, *arguments: str) -> list[str]:
-    own = ["-p", "tests.forks", "-p", "no:cacheprovider", "-p", "no:xdist", "-p", "no:schemathesis"]
+    own = ["-p", "tests.forks", "-p", "no:cacheprovider"]
     return [sys.executable, "-m", "pytest", *own, "-c", os.devnull, "--rootdir", str(folder), *arguments, str(folder)]
 
 
@@ -202,7 +208,9 @@ def test_endless():
 
 def test_processes_end_with_the_first(tmp_path: Path) -> None:
     folder = written(tmp_path / "tests", {"test_a.py": _ENDLESS, "test_b.py": _ENDLESS})
-    with subprocess.Popen(command(folder, "-n", "2"), cwd=TESTS.parent, stdout=subprocess.DEVNULL) as run:
+    environment = {**os.environ, **_ALONE}
+    run_command = command(folder, "-n", "2")
+    with subprocess.Popen(run_command, cwd=TESTS.parent, env=environment, stdout=subprocess.DEVNULL) as run:
         processes: list[psutil.Process] = []
         try:
             deadline = time.monotonic() + 60
