@@ -2,6 +2,7 @@
 
 import json
 from collections.abc import Callable
+from functools import cache
 from typing import Any
 
 import numpy as np
@@ -31,6 +32,16 @@ STEPS = ["nominal", "partly_off", "first_order", "corners", "service"]
 
 def measured(machine: dict[str, Any], **more: Any) -> AccuracyAnswer:
     return accuracy({"machine": machine, "repeats": 1, **more})
+
+
+@cache
+def _answer(text: str) -> AccuracyAnswer:
+    return accuracy(json.loads(text))
+
+
+def measured_once(tolerances: dict[str, float]) -> AccuracyAnswer:
+    """Of the twin, shared by tests that read an answer."""
+    return _answer(json.dumps({"machine": twin(), "tolerances": tolerances, "repeats": 1}))
 
 
 def by_name(answer: AccuracyAnswer) -> dict[tuple[str, str], AccuracyRow]:
@@ -134,7 +145,7 @@ def test_the_corner_by_derivatives_is_that_by_differences() -> None:
 
 def test_methods_that_know_no_scatter_are_left_out_by_name() -> None:
     """What takes what is off as terms of its program has rows; others say in one row why they have none."""
-    rows = measured(twin(), tolerances=COUNTERWEIGHTS).ladder
+    rows = measured_once(COUNTERWEIGHTS).ladder
     absent = {row.method: row.skipped for row in rows if row.skipped}
     assert absent.keys() == {"sampled_angles"}
     rows = measured(twin(), tolerances=COUNTERWEIGHTS, objective={"moment_ceiling_Nm": 1e5}).ladder
@@ -143,7 +154,7 @@ def test_methods_that_know_no_scatter_are_left_out_by_name() -> None:
     rivals = {"interior_point", "interior_point_batch", "interior_point_interpreted", "cone_program"}
     assert absent.keys() == {*rivals, "sampled_angles", "polygonal_cones"}
     assert all("ceilings" in absent[name] for name in rivals)
-    rows = measured(twin(), tolerances=MASSES).ladder
+    rows = measured_once(MASSES).ladder
     absent = {row.method: row.skipped or "" for row in rows if row.skipped}
     assert all("several peaks" in absent[name] for name in rivals)
     for row in rows:
@@ -153,7 +164,7 @@ def test_methods_that_know_no_scatter_are_left_out_by_name() -> None:
 
 def test_each_step_stands_where_it_says_something() -> None:
     def steps(tolerances: dict[str, float]) -> list[str]:
-        answer = measured(twin(), tolerances=tolerances)
+        answer = measured_once(tolerances)
         return [name for name in dict.fromkeys(row.method for row in answer.ladder) if name in STEPS]
 
     assert steps(BOTH) == STEPS
