@@ -1,6 +1,5 @@
 """Hand-written requests that mean ill, and what each of them may be answered."""
 
-import copy
 import gzip
 import json
 from collections.abc import AsyncIterable, AsyncIterator, Callable, Iterable, Iterator
@@ -73,22 +72,32 @@ def _places(node: Any, path: tuple[Any, ...] = ()) -> Iterator[tuple[Any, ...]]:
 _MARK = "7021962"
 
 
-def _replaced(body: Any, path: tuple[Any, ...], text: str) -> bytes:
-    """JSON of a body with a text in place of what stands at a path."""
-    body = copy.deepcopy(body)
-    node = body
+def _marked(body: Any, path: tuple[Any, ...]) -> str:
+    """JSON of a body with a mark in place of what stands at a path."""
+    whole = node = body.copy()
     for key in path[:-1]:
+        node[key] = node[key].copy()
         node = node[key]
     node[path[-1]] = _MARK
-    return json.dumps(body).replace(f'"{_MARK}"', text, 1).encode("utf-8", "surrogatepass")
+    return json.dumps(whole)
+
+
+def _filled(marked: str, text: str) -> bytes:
+    """With a text in place of the mark."""
+    return marked.replace(f'"{_MARK}"', text, 1).encode("utf-8", "surrogatepass")
+
+
+def _replaced(body: Any, path: tuple[Any, ...], text: str) -> bytes:
+    return _filled(_marked(body, path), text)
 
 
 def _everywhere(texts: tuple[str, ...], paths: Iterable[str] = QUESTIONS) -> Iterator[Raw]:
     for path in paths:
         body = QUESTIONS[path]
         for place in _places(body):
+            marked = _marked(body, place)
             for text in texts:
-                yield request("POST", path, _replaced(body, place, text))
+                yield request("POST", path, _filled(marked, text))
 
 
 def _numbers() -> Iterator[Raw]:
@@ -98,8 +107,9 @@ def _numbers() -> Iterator[Raw]:
             for key in place:
                 node = node[key]
             if isinstance(node, (int, float)) and not isinstance(node, bool):
+                marked = _marked(body, place)
                 for text in _NO_NUMBERS:
-                    yield request("POST", path, _replaced(body, place, text))
+                    yield request("POST", path, _filled(marked, text))
 
 
 def _nesting() -> Iterator[Raw]:

@@ -63,7 +63,7 @@ def test_it_says_what_was_found() -> None:
 
 
 def test_the_request_is_attached(composer: Make) -> None:
-    reader, _ = read(pdf(composer("v60", outputs=["orders"])))
+    reader = PdfReader(io.BytesIO(pdf(composer("v60", outputs=["orders"]))))
     ((content,),) = [reader.attachments[name] for name in reader.attachments]
     assert json.loads(content) == request_of("v60", outputs=["orders"]).alone.model_dump(mode="json")
     assert list(reader.attachments) == ["request.json"]
