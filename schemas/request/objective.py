@@ -51,6 +51,12 @@ class Priority(Model):
     )
 
 
+#: weights of which a goal needs one
+_WEIGHTS = {
+    "external": "force_weight, moment_weight or roll_weight",
+    "bearings": "bearing_weight",
+    "bending": "bending_weight",
+}
 #: fields of the objective that look at the whole turn, with what asks for nothing
 OVER_THE_TURN: dict[str, Any] = {
     "bearing_weight": 0.0,
@@ -213,7 +219,7 @@ class Objective(Ruled):
             yield Rule(goal in goals[:i], path, "this goal is named already")
             message = f"give a goal beside {goal}: external, bearings or bending"
             yield Rule(goal in COSTS and not set(goals) - set(COSTS), path, message)
-            yield Rule(weighed.get(goal, True) == 0, path, "this goal has no weight")
+            yield Rule(weighed.get(goal, True) == 0, path, f"this goal has no weight: give {_WEIGHTS.get(goal)}")
         for name, has in weighed.items():
             yield Rule((name not in goals) & has, ("priorities",), f"the goal {name} has a weight and no place")
         yield Rule(

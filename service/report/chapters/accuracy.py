@@ -144,7 +144,7 @@ def _rung(row: AccuracyRow) -> tuple[Cell, ...]:
 def _remark(row: AccuracyRow) -> str:
     if row.skipped:
         return "skipped"
-    broken = f"ceilings broken by {row.excess:.1e}" if row.excess is not None and row.excess > 1e-9 else ""
+    broken = f"limits broken by {row.excess:.1e}" if row.excess is not None and row.excess > 1e-9 else ""
     return "frontier" if row.on_frontier else broken
 
 
