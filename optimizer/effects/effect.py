@@ -4,7 +4,7 @@ from collections.abc import Callable, Collection, Iterator, Mapping
 from typing import Any
 
 from optimizer.mechanics.layout import Layout
-from optimizer.mechanics.row_series import Reading
+from optimizer.mechanics.reading import Reading
 from optimizer.numerics.arrays import Real
 from optimizer.numerics.records import record
 from schemas.base.model import FieldProblem

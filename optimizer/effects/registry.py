@@ -15,7 +15,7 @@ from optimizer.effects.inertia import INERTIA
 from optimizer.effects.scroll import SCROLL
 from optimizer.mechanics.inertia import Wrench
 from optimizer.mechanics.layout import Layout
-from optimizer.mechanics.row_series import Reading
+from optimizer.mechanics.reading import Reading
 from optimizer.numerics.arrays import Real
 from optimizer.numerics.memoization import cached_property, remembered
 from schemas.base.model import FieldProblem

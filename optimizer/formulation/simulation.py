@@ -17,8 +17,8 @@ from optimizer.mechanics.fixed_weights import laden
 from optimizer.mechanics.frame import Shares
 from optimizer.mechanics.inertia import Wrench, counterweights, first_order, reciprocating, rotating
 from optimizer.mechanics.layout import Layout, layout, spread
+from optimizer.mechanics.reading import Reading
 from optimizer.mechanics.roll import roll
-from optimizer.mechanics.row_series import Reading
 from optimizer.mechanics.shaft import INFLUENCES, bearing_places
 from optimizer.mechanics.shaft_curves import ShaftCurves, bending_influence, planes, shaft_curves, stations
 from optimizer.numerics.arrays import Complex, Real, variant

@@ -2,15 +2,14 @@
 ask for it."""
 
 from abc import ABC, abstractmethod
-from functools import cache
 from itertools import repeat
-from types import ModuleType
 from typing import TYPE_CHECKING
 
 import numpy as np
 
+from optimizer.mechanics.reading import READINGS, WITHOUT_GAS, Reading
 from optimizer.mechanics.row_data import RowData, compact
-from optimizer.mechanics.row_series import AT_ONCE, NO_WIDTHS, Reading, RowSeries, turn_kernel
+from optimizer.mechanics.row_series import AT_ONCE, NO_WIDTHS, RowSeries, turn_kernel
 from optimizer.numerics.arrays import Complex, Real, in_order, spread
 from optimizer.numerics.memoization import cached_property
 from optimizer.numerics.records import record
@@ -79,8 +78,8 @@ class CurveSeries:
     @cached_property
     def sums(self) -> "Sums":
         """What is compiled takes them as."""
-        number, every = np.empty(len(self.weights), np.int64), _readings().READINGS
-        number[:] = [every.index(reading) for reading in self.readings]
+        number = np.empty(len(self.weights), np.int64)
+        number[:] = [READINGS.index(reading) for reading in self.readings]
         vectors = [in_order(np.asarray(array, complex)) for array in (self.weights, self.constant)]
         sums: Sums = turn_kernel().Sums(number, *vectors)
         return sums
@@ -150,8 +149,7 @@ class CurveSeries:
     @cached_property
     def _has_gas(self) -> bool:
         """Whether gas is a part of any."""
-        without_gas = _readings().WITHOUT_GAS
-        return any(reading not in without_gas for reading in self.readings)
+        return any(reading not in WITHOUT_GAS for reading in self.readings)
 
     @cached_property
     def _every(self) -> Index:
@@ -160,14 +158,6 @@ class CurveSeries:
     @cached_property
     def _within(self) -> Real:
         return compact(self.middle)
-
-
-# it loads the compiler, and so at the first call; an import at each takes as long as a small array
-@cache
-def _readings() -> ModuleType:
-    from optimizer.mechanics.kernel import readings
-
-    return readings
 
 
 def _integers(values: Index) -> Index:

@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from optimizer.mechanics.reading import READINGS, WITHOUT_GAS, Reading
 from optimizer.mechanics.row_data import RowData, compact
-from optimizer.mechanics.row_series import Reading
 from optimizer.numerics.arrays import Real
 from optimizer.numerics.memoization import cached_property
 
@@ -42,7 +42,7 @@ class DesignForces:
 
     def _make(self, readings: set[Reading]) -> None:
         from optimizer.mechanics.kernel.entry import FORCES, NO_QUERY, NO_READING, over_turn
-        from optimizer.mechanics.kernel.readings import ON_FRAME, ON_SHAFT, READINGS, WITHOUT_GAS
+        from optimizer.mechanics.kernel.readings import ON_FRAME, ON_SHAFT
         from optimizer.mechanics.kernel.rows import Functions
 
         mask, half = np.array([name in readings for name in READINGS], np.int64), compact(self.half)

@@ -8,8 +8,9 @@ from dataclasses import replace
 import numpy as np
 
 from optimizer.mechanics.curve_series import forces
+from optimizer.mechanics.reading import Reading
 from optimizer.mechanics.row_data import RowData
-from optimizer.mechanics.row_series import Reading, RowSeries
+from optimizer.mechanics.row_series import RowSeries
 from optimizer.numerics.arrays import Complex, Real
 from optimizer.numerics.memoization import cached_property
 from optimizer.numerics.records import record

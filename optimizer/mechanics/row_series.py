@@ -10,7 +10,7 @@ from dataclasses import replace
 from functools import cache
 from itertools import pairwise
 from types import ModuleType
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -28,21 +28,6 @@ if TYPE_CHECKING:
 AT_ONCE = 50_000
 #: of what is expanded at points
 NO_WIDTHS = np.zeros(0)
-
-#: a force of the rows
-Reading = Literal[
-    "piston",
-    "rod",
-    "rod_without_gas",
-    "rod_at_rest",
-    "side",
-    "tangential",
-    "radial",
-    "on_shaft",
-    "on_frame",
-    "gas",
-    "inertia",
-]
 
 
 @record(frozen=True)

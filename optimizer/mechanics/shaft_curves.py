@@ -15,7 +15,7 @@ import numpy as np
 from optimizer.mechanics.balance_shafts import beside
 from optimizer.mechanics.bearings import unit_bending_moment
 from optimizer.mechanics.layout import Layout
-from optimizer.mechanics.row_series import Reading
+from optimizer.mechanics.reading import Reading
 from optimizer.mechanics.whole_turn import TurnCurves, WholeTurn
 from optimizer.numerics.arrays import Complex, Real, side_by_side, spread
 from optimizer.numerics.memoization import remembered

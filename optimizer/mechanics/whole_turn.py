@@ -17,10 +17,11 @@ from optimizer.mechanics.design_forces import ORDER, DesignForces
 from optimizer.mechanics.indicated import SLIVER, TURN, Trace, entries, turns_of
 from optimizer.mechanics.kinematics import angle_ahead, steep, steep_angles
 from optimizer.mechanics.layout import Layout
+from optimizer.mechanics.reading import Reading
 from optimizer.mechanics.row_data import RowData, compact, shared
 from optimizer.mechanics.row_kinds import RowKinds, row_kinds
 from optimizer.mechanics.row_parts import RowParts
-from optimizer.mechanics.row_series import AT_ONCE, Reading, RowSeries
+from optimizer.mechanics.row_series import AT_ONCE, RowSeries
 from optimizer.mechanics.turn import Turn, panels
 from optimizer.numerics.arrays import Complex, Real, all_true, spread
 from optimizer.numerics.memoization import cached_property

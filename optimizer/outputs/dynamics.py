@@ -7,7 +7,7 @@ from typing import Any, Literal
 import numpy as np
 
 from optimizer.formulation.simulation import Prepared
-from optimizer.mechanics.row_series import Reading
+from optimizer.mechanics.reading import Reading
 from optimizer.numerics.arrays import Complex, Real, read_only
 from optimizer.outputs.output import Columns, Output
 from optimizer.outputs.peaks import (

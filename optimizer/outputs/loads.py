@@ -12,7 +12,7 @@ from optimizer.mechanics.angles import direction
 from optimizer.mechanics.gas import forces_at_dead_centres, pressure_range
 from optimizer.mechanics.layout import stacked, web_radii
 from optimizer.mechanics.plates import Plates
-from optimizer.mechanics.row_series import Reading
+from optimizer.mechanics.reading import Reading
 from optimizer.mechanics.shaft import INFLUENCES, bearing_places
 from optimizer.mechanics.shapes import plates
 from optimizer.mechanics.weight import GRAVITY, Guides, along_axis, guides

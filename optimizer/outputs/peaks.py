@@ -11,8 +11,8 @@ import numpy as np
 from optimizer.formulation.simulation import Prepared
 from optimizer.mechanics.curve_batch import CurveBatch
 from optimizer.mechanics.indicated import TURN
+from optimizer.mechanics.reading import Reading
 from optimizer.mechanics.row_kinds import RowKinds
-from optimizer.mechanics.row_series import Reading
 from optimizer.mechanics.shaft_curves import ShaftCurves
 from optimizer.mechanics.whole_turn import TurnCurves, WholeTurn
 from optimizer.numerics.arrays import Complex, Real, spread

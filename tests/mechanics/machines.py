@@ -26,9 +26,9 @@ from optimizer.mechanics import (
 )
 from optimizer.mechanics.curve_batch import CurveBatch
 from optimizer.mechanics.indicated import Trace, entries
-from optimizer.mechanics.kernel.readings import READINGS
 from optimizer.mechanics.kinematics import motion, own_angle
 from optimizer.mechanics.layout import Layout, layout
+from optimizer.mechanics.reading import READINGS
 from optimizer.mechanics.row_data import row_data
 from optimizer.mechanics.whole_turn import TurnCurves, WholeTurn, break_angles, whole_turn
 from optimizer.responses.curve import TurnResponse

@@ -9,8 +9,8 @@ from hypothesis import strategies as st
 
 from optimizer.mechanics.gas import switching_angles
 from optimizer.mechanics.indicated import Trace
+from optimizer.mechanics.reading import Reading
 from optimizer.mechanics.row_data import RowData, row_data
-from optimizer.mechanics.row_series import Reading
 from optimizer.mechanics.whole_turn import WholeTurn, break_angles, whole_turn
 from optimizer.numerics.arrays import Real
 from tests import night

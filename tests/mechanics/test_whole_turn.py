@@ -12,9 +12,10 @@ from optimizer.mechanics.friction import reciprocating_friction
 from optimizer.mechanics.gas import gas_forces, switching_angles
 from optimizer.mechanics.kernel.curves import _rising
 from optimizer.mechanics.kinematics import motion
+from optimizer.mechanics.reading import Reading
 from optimizer.mechanics.rod import rod_forces, shaft_loads
 from optimizer.mechanics.row_data import row_data, shared
-from optimizer.mechanics.row_series import Reading, RowSeries
+from optimizer.mechanics.row_series import RowSeries
 from optimizer.mechanics.whole_turn import TurnCurves, WholeTurn, break_angles, whole_turn
 from optimizer.responses.curve import floors
 from optimizer.responses.piecewise_cubics import Bracket

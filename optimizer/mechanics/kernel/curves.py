@@ -7,8 +7,9 @@ from typing import NamedTuple
 
 import numpy as np
 
-from optimizer.mechanics.kernel.readings import READINGS, WITHOUT_GAS, row_series
+from optimizer.mechanics.kernel.readings import row_series
 from optimizer.mechanics.kernel.rows import Functions, Places, row_functions
+from optimizer.mechanics.reading import READINGS, WITHOUT_GAS
 from optimizer.numerics.arrays import Complex
 from optimizer.numerics.compiling import inner, inner_with_arrays
 

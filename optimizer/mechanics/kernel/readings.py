@@ -7,27 +7,13 @@ import numpy as np
 
 from optimizer.mechanics.kernel.row_numbers import COS, FUNCTIONS, INERTIA, OUTWARD, SECANT, SIN, TURNING
 from optimizer.mechanics.kernel.taylor import ALL, LANES, Series, any_of, constant, copied, multiplied, scaled
+from optimizer.mechanics.reading import READINGS
 from optimizer.numerics.compiling import inner, inner_with_arrays
 
-#: readings of the rows; the first column counts from 0 in the compiled code
-READINGS = (
-    "piston",
-    "rod",
-    "rod_without_gas",
-    "rod_at_rest",
-    "side",
-    "tangential",
-    "radial",
-    "on_shaft",
-    "on_frame",
-    "gas",
-    "inertia",
-)
+#: places of the readings; the first counts from 0 in the compiled code
 PISTON, ROD, ROD_WITHOUT_GAS, ROD_AT_REST, SIDE, TANGENTIAL, RADIAL, ON_SHAFT, ON_FRAME, GAS, ACCELERATION = range(
     len(READINGS)
 )
-#: of these the gas is no part
-WITHOUT_GAS = ("rod_without_gas", "on_frame", "inertia")
 #: functions beside those that are kept
 _FACTOR, _FORCE, _OF_INERTIA, _OF_GAS, _TOTAL = np.arange(5)
 _OWN = 5

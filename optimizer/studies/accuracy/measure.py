@@ -51,6 +51,7 @@ from schemas.request.accuracy import (
     AccuracyRequest,
     AccuracyRow,
     Environment,
+    GoalBefore,
     ProgramSize,
     Reference,
     Status,
@@ -274,7 +275,7 @@ def _judged(
     bound = _proven(task.judge, best, bounds, objective, excess)
     if np.isnan(bound):
         return None, ()
-    reference = _reference(objective, bound, rest, square).model_copy(update={"goals": goals_before(task, square)})
+    reference = _reference(objective, bound, rest, square, goals_before(task, square))
     figures = [_figures(trial, bound, rest, bool(task.judge.ceilings)) for trial in trials]
     points = [
         # a batch answers no single request in the time of one of its programs
@@ -334,12 +335,13 @@ def _row(task: LadderProgram, trial: Trial, figures: _MethodFigures | None, on_f
     )
 
 
-def _reference(objective: float, bound: float, rest: float, square: float) -> Reference:
+def _reference(objective: float, bound: float, rest: float, square: float, goals: tuple[GoalBefore, ...]) -> Reference:
     return Reference(
         objective=objective * square,
         lower_bound=bound * square,
         objective_without_counterweights=rest * square,
         resolution=max((objective - bound) / rest, _ROUNDING) if rest > 0 else _ROUNDING,
+        goals=goals,
     )
 
 
