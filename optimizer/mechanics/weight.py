@@ -41,12 +41,12 @@ class Guides:
         """
         shape = np.broadcast_shapes(self.weight.shape, self.towards.shape)
         towards, weight = (spread(part, shape).reshape(-1) for part in (self.towards, self.weight))
-        cycle, count = np.deg2rad(side.period_deg), shape[-1]
+        cycle, (designs, count) = np.deg2rad(side.period_deg), side.weights.shape[:2]
         # there N = 0, between them it has one sign
         crossings = np.sort(np.mod(side.crossings(-towards * weight)[0], cycle), axis=-1)
         width = np.diff(crossings, axis=-1, append=crossings[..., :1] + cycle)
-        middle = (crossings + 0.5 * width).reshape(-1, count * width.shape[-1])
-        there = side.along(middle).reshape(len(middle), count, count, -1)
+        middle = (crossings + 0.5 * width).reshape(designs, count * width.shape[-1])
+        there = side.along(middle).reshape(designs, count, count, width.shape[-1])
         own = np.arange(count)
         force = towards[:, None] * there[:, own, own].reshape(width.shape).real + weight[:, None]
         # one after the other, so that it does not depend on how many crossings another design has

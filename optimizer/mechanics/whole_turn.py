@@ -353,7 +353,7 @@ class TurnCurves(SeriesCurves):
     def _values(self, angle: Real, within: Real, kinds: RowKinds | None = None) -> Complex:
         """The curves (N, C, n) at angles (N, n) within pieces that hold others."""
         series = RowSeries(self.whole.rows, angle, None, within, 0, kinds=kinds)
-        return self._series.over(series, None, within)[0].reshape(*self.weights.shape[:2], -1)
+        return self._series.over(series, None, within)[0].reshape(*self.weights.shape[:2], angle.shape[-1])
 
     def crossings(self, level: Real) -> tuple[Real, Real]:
         """Shaft angles (N C, n) rad at which scalars cross levels (N C,), jumps included, and what the integral up to
@@ -363,7 +363,7 @@ class TurnCurves(SeriesCurves):
     @cached_property
     def _series(self) -> CurveSeries:
         whole, curves = self.whole, self.weights.shape[0] * self.weights.shape[1]
-        weights, constant = self.weights.reshape(curves, -1), self.constant.reshape(curves)
+        weights, constant = self.weights.reshape(curves, self.weights.shape[2]), self.constant.reshape(curves)
         return CurveSeries(whole.rows, whole.centre, (self.reading,), weights, constant)
 
 

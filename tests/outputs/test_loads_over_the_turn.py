@@ -127,3 +127,9 @@ def test_an_upright_row_has_no_lower_guide_analytic() -> None:
     (row,) = _rows(ask(_single(0.3) | {"gravity_deg": 180.0}, "loads", step_deg=90.0))
     assert row.guide is not None
     assert (row.guide.weight_N, row.guide.lifts, row.guide.lifted_share) == (0.0, None, 0.0)
+
+
+def test_a_throw_without_rows_loads_no_guide() -> None:
+    (throw,) = _single(0.2)["throws"]
+    bare = {"throws": [{**throw, "rotating_mass_kg": 3.0, "rows": []}]}
+    assert _rows(ask(_single(0.2) | bare, "loads", step_deg=90.0)) == ()

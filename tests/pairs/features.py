@@ -125,6 +125,11 @@ def _group(subject: Subject, mirror: bool) -> None:
     subject.machine["web_groups"] = [{"name": "alike", "webs": names, "mirror": mirror}]
 
 
+def _loads_of_parts(subject: Subject) -> None:
+    _shaft(subject, gravity_deg=250.0, stationary_mass_kg=400.0)
+    subject.body["outputs"] = ["residual", "loads"]
+
+
 def _balance_shafts(subject: Subject, ratio: int, **fields: object) -> None:
     web = {"name": "on the shaft", "position_m": 0.0, "counterweight_radius_m": 0.05, "max_mass_kg": 5.0, **fields}
     shaft = {"name": "balancer", "speed_ratio": ratio, "x_m": 0.1, "y_m": 0.05, "webs": [web]}
@@ -337,6 +342,7 @@ FEATURES: Mapping[str, Feature] = {
     "webs at an end bearing": _end_webs,
     "webs in the reference plane": _mid_webs,
     "outputs of the turn": partial(_part, name="outputs", value=["residual", "orders", "kinematics", "main_bearings"]),
+    "loads of parts": _loads_of_parts,
     "outputs of gas": partial(_part, name="outputs", value=["residual", "gas", "torque"]),
     "balance quality": partial(
         _rotor,

@@ -215,8 +215,8 @@ def _drive_figures(request: SweepRequest, answer: OptimizeAnswer | AnalyzeAnswer
         with_shafts = answer.roll.after if balance_shafts(request.base.machine) else answer.roll.before
         yield "peak_roll_Nm", None if with_shafts is None else with_shafts.peak_Nm
     if answer.loads is not None:
-        yield "peak_crosshead_pin_N", max(row.crosshead_pin_N for row in answer.loads.rows)
-        yield "peak_sudden_stop_N", max(row.stop_over_the_turn_N for row in answer.loads.rows)
+        yield "peak_crosshead_pin_N", max((row.crosshead_pin_N for row in answer.loads.rows), default=0.0)
+        yield "peak_sudden_stop_N", max((row.stop_over_the_turn_N for row in answer.loads.rows), default=0.0)
         yield "own_base_peak_Nm", answer.loads.own_base_peak_Nm
         yield "shared_base_peak_Nm", answer.loads.shared_base_peak_Nm
         for weight in answer.loads.bearing_weights:
