@@ -17,6 +17,7 @@ class Columns:
     """What an output comes to in a sweep; names, units and meanings are declared in :mod:`schemas.answer.outputs`.
 
     values : of a scene of designs and their counterweights (n, webs) kg m, nan where there are none; (n,) by column.
+    sampled : whether they are read off the samples of the turn.
     needs : effects whose results they read, where the figure reads others.
     keys : of those in detail (:mod:`schemas.sweep.details`), which are computed only for a sweep with one of them.
     alone : whether a design takes about as long as in a single answer, however many there are.
@@ -24,6 +25,7 @@ class Columns:
     """
 
     values: Callable[[Prepared, Complex], Mapping[str, Real]]
+    sampled: bool = False
     needs: tuple[str, ...] | None = None
     keys: tuple[str, ...] = ()
     alone: bool = False

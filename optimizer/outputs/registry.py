@@ -121,9 +121,10 @@ def columns(request: Scene, unbalance: Complex, always: tuple[str, ...], selecti
         little.
     """
     groups = column_groups(request, always, selection)
+    samples = request.angles.count if any(group.sampled for group in groups) else 1
     needs = {str(k): group.needs or () for k, group in enumerate(groups)}
     readings = tuple(dict.fromkeys(reading for group in groups for reading in group.readings))
-    scene = simulated(request, needs, 1, unbalance.shape[:1], readings=readings)
+    scene = simulated(request, needs, samples, unbalance.shape[:1], readings=readings)
     own = len(request.machine.webs)
     if unbalance.shape[-1] > own:
         unbalance, scene = unbalance[:, :own], scene.beside(unbalance[:, own:])

@@ -24,6 +24,7 @@ def work_per_design(
         return 0
     rows = sum(len(throw.rows) for throw in request.machine.throws)
     turns = cycle_turns(request.machine)
+    samples = turns * request.angles.count if any(group.sampled for group in groups) else 1
     # a row brings at most 6 breaks in a turn, a trace its entries; the halved panels of 10 degrees have 12 nodes each,
     # where integrals have no closed form
     breaks = 6 * rows * turns + entry_count(request.machine)
@@ -31,7 +32,7 @@ def work_per_design(
     nodes = 24 * (36 * turns + breaks) if by_quadrature and "torque_integrals" in effects else 1
     # and the pieces of 5 degrees have ten coefficients each
     pieces = 10 * (72 * turns + breaks) if "whole_turn" in effects else 1
-    return max(rows, 1) * max(nodes, pieces)
+    return max(rows, 1) * max(samples, nodes, pieces)
 
 
 def worked_out_alone(request: SweepRequest) -> int:
